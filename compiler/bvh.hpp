@@ -1,0 +1,55 @@
+// Two-wide bounding volume hierarchy with both child boxes in the parent.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "geometry.hpp"
+
+namespace minirtc {
+
+struct Aabb {
+    glm::vec3 lo{3.402823466e38f};
+    glm::vec3 hi{-3.402823466e38f};
+    void grow(const glm::vec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+    void grow(const Aabb& b) { lo = glm::min(lo, b.lo), hi = glm::max(hi, b.hi); }
+    /// Half of the surface area; 0 when empty.
+    float halfArea() const {
+        const glm::vec3 d = glm::max(hi - lo, glm::vec3(0));
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+};
+
+/// A child of a node: an inner node (count 0, `index` its place in Bvh::nodes, always greater than the parent's)
+/// or a leaf of `count` primitives from `index` on in Bvh::order.
+struct BvhChild {
+    Aabb box;
+    uint32_t index = 0;
+    uint32_t count = 0;
+};
+
+struct BvhNode {
+    BvhChild child[2];
+};
+
+/// nodes[0] is the root; depth-first order, first child next to its parent. A tree over a single leaf has one node whose
+/// second child is an empty box with a copy of the first child's leaf reference.
+struct Bvh {
+    std::vector<BvhNode> nodes;
+    std::vector<uint32_t> order;  // leaf slot -> primitive; each primitive exactly once
+    uint32_t depth = 0;           // inner nodes on the longest path from the root: bounds the traversal stack
+    uint32_t leaves = 0;
+    double sahCost = 0;  // expected cost of a random ray: 1 a node, 1 a primitive, relative to the root's area
+    double buildMs = 0;
+};
+
+constexpr uint32_t kMaxLeafSize = 4;
+constexpr uint32_t kMaxDepth = 48;
+
+/// The exact float bounds of a primitive.
+Aabb bounds(const Primitive& primitive);
+
+/// Binned SAH on `threads` threads (0: all cores). The tree does not depend on the number of threads.
+Bvh buildBvh(const Geometry& geometry, unsigned threads);
+
+}  // namespace minirtc

@@ -1,0 +1,162 @@
+// The scene as the user wrote it, parsed and checked: the value that the JSON stage returns and the others read.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "error.hpp"
+
+namespace minirtc {
+
+constexpr uint32_t kNone = 0xffffffffu;
+
+/// Linear RGBA image, row 0 at the top, `width * height` texels.
+struct Image {
+    std::string name;  // path as given, for messages
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<glm::vec4> texels;
+};
+
+enum class ColorSpace { srgb, linear };  // of 8-bit files; .hdr and .exr are linear always
+
+struct Camera {
+    glm::dvec3 position{0, 0, 0};
+    glm::dvec3 target{0, 0, -1};
+    glm::dvec3 up{0, 1, 0};
+    double vfov = 60.0;  // degrees
+    double aperture = 0.0;
+    double focusDistance = 1.0;
+};
+
+/// Constant radiance, or an equirectangular panorama times `strength`.
+struct Background {
+    glm::vec3 color{0};
+    uint32_t image = kNone;  // index into Scene::images
+    float strength = 1.0f;
+    float rotation = 0.0f;  // degrees about +Y
+};
+
+enum class LightType : uint32_t { point = 0, directional = 1 };
+
+struct Light {
+    LightType type = LightType::point;
+    glm::dvec3 position{0};       // point
+    glm::dvec3 direction{0, -1, 0};  // directional: the way the light travels, any length but 0
+    glm::vec3 intensity{1};       // W/sr, or irradiance in W/m^2 of a directional light
+    bool inverseSquare = true;    // false: "falloff":"none", the seeds' lights
+};
+
+/// What light does at a surface, in the weights that the Whitted kernel uses. `phong`, `pbr` and .mtl materials all become this.
+struct Material {
+    std::string name;
+    glm::vec3 diffuse{0};   // Lambert weight: radiance per irradiance (a pbr base colour over pi; a phong diffuse * colour)
+    glm::vec3 specular{0};  // Phong highlight weight
+    float shininess = 1.0f;
+    glm::vec3 reflect{0};   // weight of the mirror ray
+    glm::vec3 transmit{0};  // weight of the refracted ray
+    float ior = 1.0f;
+    bool fresnel = false;   // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
+    glm::vec3 emission{0};
+    uint32_t diffuseTexture = kNone;  // index into Scene::images; multiplies `diffuse`
+    bool checker = false;             // a checker of the materials `checkerA` and `checkerB`; the rest is unused
+    uint32_t checkerA = kNone;
+    uint32_t checkerB = kNone;
+    float checkerScale = 1.0f;  // metres
+};
+
+/// Indices into a Mesh's arrays; kNone where the file gives no normal or texture coordinate.
+struct Corner {
+    uint32_t position = 0;
+    uint32_t normal = kNone;
+    uint32_t uv = kNone;
+};
+
+struct Face {
+    std::array<Corner, 3> corners;
+    uint32_t material = kNone;  // index into Mesh::materials
+    int line = 0;               // of the OBJ file, 0 if unknown
+};
+
+/// One OBJ file, triangulated, untransformed.
+struct Mesh {
+    std::string path;
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uvs;
+    std::vector<Face> faces;
+    std::vector<uint32_t> materials;  // mesh-local .mtl material -> index into Scene::materials
+};
+
+struct Sphere {
+    glm::dvec3 center{0};
+    double radius = 1.0;
+};
+
+/// The parallelogram origin + s*u + t*v with s, t in [0,1]; its front is the side of cross(u, v).
+struct Rectangle {
+    glm::dvec3 origin{0};
+    glm::dvec3 u{1, 0, 0};
+    glm::dvec3 v{0, 1, 0};
+};
+
+/// Applied to a mesh as scale, then rotation about X, then Y, then Z (degrees), then translation.
+struct Transform {
+    glm::dvec3 scale{1};
+    glm::dvec3 rotate{0};
+    glm::dvec3 translate{0};
+};
+
+enum class ShapeType { mesh, sphere, rectangle };
+
+struct Object {
+    std::string name;          // for messages: the mesh's path or the shape's kind and number
+    SourceLocation location;   // in the scene file
+    ShapeType shape = ShapeType::mesh;
+    uint32_t mesh = kNone;     // index into Scene::meshes
+    Sphere sphere;
+    Rectangle rectangle;
+    uint32_t material = kNone;  // index into Scene::materials; kNone: the mesh's own .mtl
+    std::vector<Transform> instances{Transform{}};  // each instance becomes a copy in the blob
+    std::optional<bool> smooth;  // absent: smooth exactly where the OBJ gives normals
+};
+
+enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2 };
+
+struct RenderDefaults {
+    Integrator integrator = Integrator::whitted;
+    uint32_t maxDepth = 20;  // bounces after the camera ray
+    uint32_t spp = 1;
+    uint32_t width = 1024;
+    uint32_t height = 768;
+};
+
+struct Scene {
+    std::string path;
+    Camera camera;
+    Background background;
+    std::vector<Light> lights;
+    std::vector<Image> images;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Object> objects;
+    RenderDefaults render;
+};
+
+/// Parses and checks a scene file and all that it names (OBJ, MTL, images). Throws Error with file, line, column and what to do.
+Scene loadScene(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// Reads a triangulated mesh. Materials of its .mtl are appended to `scene.materials`, their textures to `scene.images`,
+/// but only where `wantMaterials`. Throws Error.
+Mesh loadObj(const std::filesystem::path& path, bool wantMaterials, Scene& scene, Diagnostics& diagnostics);
+
+/// Reads .jpg .png .bmp .tga (8 bit, `space`), .hdr and .exr (linear). Throws Error.
+Image loadImage(const std::filesystem::path& path, ColorSpace space);
+
+}  // namespace minirtc
