@@ -1,0 +1,83 @@
+#include "effects.hpp"
+
+#include <set>
+
+namespace minirtc {
+namespace {
+
+constexpr std::array<EffectInfo, kEffectCount> kEffects = {{
+    {"spheres", "EFFECT_SPHERES", "no object is a sphere"},
+    {"smooth_normals", "EFFECT_SMOOTH_NORMALS", "every vertex normal equals its face's"},
+    {"textures", "EFFECT_TEXTURES", "no material in use has a texture"},
+    {"checker", "EFFECT_CHECKER", "no object has a checker material"},
+    {"point_lights", "EFFECT_POINT_LIGHTS", "there is no point light"},
+    {"directional_lights", "EFFECT_DIRECTIONAL_LIGHTS", "there is no directional light"},
+    {"highlights", "EFFECT_HIGHLIGHTS", "no lit material in use has a highlight"},
+    {"reflection", "EFFECT_REFLECTION", "no material in use reflects"},
+    {"refraction", "EFFECT_REFRACTION", "no material in use transmits"},
+    {"fresnel", "EFFECT_FRESNEL", "no material in use splits by Fresnel"},
+    {"emission", "EFFECT_EMISSION", "no material in use shines"},
+    {"background_image", "EFFECT_BACKGROUND_IMAGE", "the background is a constant"},
+    {"float_nodes", "EFFECT_FLOAT_NODES", "16-bit boxes fit this scene"},
+}};
+
+bool nonZero(const glm::vec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+void callFor(EffectSet& effects, Effect effect, bool wanted, const std::string& reason) {
+    EffectChoice& choice = effects[effect];
+    if (!wanted || choice.included) return;
+    choice.included = true;
+    choice.reason = reason;
+}
+
+void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const std::string& object) {
+    const Material& material = scene.materials[index];
+    const std::string reason = "material '" + material.name + "' of " + object;
+    if (material.checker) {
+        callFor(effects, Effect::checker, true, reason);
+        addMaterial(effects, scene, material.checkerA, object);
+        addMaterial(effects, scene, material.checkerB, object);
+        return;
+    }
+    const bool lit = !scene.lights.empty();
+    callFor(effects, Effect::textures, lit && material.diffuseTexture != kNone && nonZero(material.diffuse), reason);
+    callFor(effects, Effect::highlights, lit && nonZero(material.specular), reason);
+    callFor(effects, Effect::reflection, nonZero(material.reflect), reason);
+    callFor(effects, Effect::refraction, nonZero(material.transmit), reason);
+    callFor(effects, Effect::fresnel, material.fresnel && (nonZero(material.reflect) || nonZero(material.transmit)), reason);
+    callFor(effects, Effect::emission, nonZero(material.emission), reason);
+}
+
+}  // namespace
+
+const EffectInfo& effectInfo(Effect effect) { return kEffects[static_cast<size_t>(effect)]; }
+
+EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, bool floatNodes) {
+    EffectSet effects;
+    for (size_t i = 0; i < kEffectCount; ++i) effects.choices[i].reason = kEffects[i].absent;
+    std::set<uint32_t> seen;
+    for (const Primitive& primitive : geometry.primitives) {
+        const std::string& object = geometry.objectNames[primitive.object];
+        callFor(effects, Effect::spheres, primitive.isSphere, object);
+        if (seen.insert(primitive.material).second) addMaterial(effects, scene, primitive.material, object);
+    }
+    callFor(effects, Effect::smoothNormals, geometry.anySmooth, "vertex normals that differ from their face's");
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const bool point = scene.lights[i].type == LightType::point;
+        callFor(effects, point ? Effect::pointLights : Effect::directionalLights, true, "light " + std::to_string(i));
+    }
+    if (scene.background.image != kNone) {
+        callFor(effects, Effect::backgroundImage, true, "background '" + scene.images[scene.background.image].name + "'");
+    }
+    callFor(effects, Effect::floatNodes, floatNodes, "16-bit boxes would lose too much on this scene");
+    return effects;
+}
+
+void includeAll(EffectSet& effects) {
+    for (size_t i = 0; i < kEffectCount; ++i) {
+        if (static_cast<Effect>(i) == Effect::floatNodes) continue;  // a layout, not a cost that a scene could avoid
+        callFor(effects, static_cast<Effect>(i), true, "asked for by --all-effects");
+    }
+}
+
+}  // namespace minirtc

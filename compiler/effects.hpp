@@ -1,0 +1,60 @@
+// The effects that a scene calls for. A kernel holds only those; everything else is gone from its code, buffers and bindings.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "geometry.hpp"
+#include "scene.hpp"
+
+namespace minirtc {
+
+enum class Effect {
+    spheres,
+    smoothNormals,
+    textures,
+    checker,
+    pointLights,
+    directionalLights,
+    highlights,
+    reflection,
+    refraction,
+    fresnel,
+    emission,
+    backgroundImage,
+    floatNodes,
+    count
+};
+
+constexpr size_t kEffectCount = static_cast<size_t>(Effect::count);
+
+struct EffectInfo {
+    const char* name;    // on the command line and in `inspect`
+    const char* define;  // switches the effect's shader file to its real version
+    const char* absent;  // why it is out when nothing calls for it
+};
+
+const EffectInfo& effectInfo(Effect effect);
+
+/// In or out, and why: the object, material or light that called for it.
+struct EffectChoice {
+    bool included = false;
+    std::string reason;
+};
+
+struct EffectSet {
+    std::array<EffectChoice, kEffectCount> choices;
+    bool has(Effect effect) const { return choices[static_cast<size_t>(effect)].included; }
+    EffectChoice& operator[](Effect effect) { return choices[static_cast<size_t>(effect)]; }
+    const EffectChoice& operator[](Effect effect) const { return choices[static_cast<size_t>(effect)]; }
+    /// True when a hit can send on two rays, so that one must wait.
+    bool splits() const { return has(Effect::refraction); }
+};
+
+/// Decides each effect from the scene: the materials that objects use, the lights, the background, the geometry.
+EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, bool floatNodes);
+
+/// Every effect, whether called for or not.
+void includeAll(EffectSet& effects);
+
+}  // namespace minirtc

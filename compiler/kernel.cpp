@@ -1,0 +1,127 @@
+#include "kernel.hpp"
+
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+#include <memory>
+#include <mutex>
+#include <spirv-tools/libspirv.hpp>
+#include <spirv-tools/optimizer.hpp>
+
+#include "error.hpp"
+#include "shader_library.hpp"
+
+namespace minirtc {
+namespace {
+
+constexpr auto kVulkan = glslang::EShTargetVulkan_1_1;
+constexpr auto kSpirv = glslang::EShTargetSpv_1_3;
+constexpr auto kToolsEnvironment = SPV_ENV_VULKAN_1_1;
+
+/// The order in which the parts of a kernel build on each other.
+const std::vector<std::string> kParts = {
+    "common/language.glsl",     "layout",
+    "common/frame.glsl",        "common/numerics.glsl",
+    "bsdf/optics.glsl",         "traverse/box.glsl",
+    "traverse/triangle.glsl",   "traverse/sphere.glsl",
+    "traverse/nodes.glsl",      "effects/spheres.glsl",
+    "traverse/traverse.glsl",   "common/suspend.glsl",
+    "effects/images.glsl",      "effects/background.glsl",
+    "effects/smooth_normals.glsl", "effects/textures.glsl",
+    "common/materials.glsl",    "effects/checker.glsl",
+    "common/surface.glsl",      "effects/lights.glsl",
+    "effects/scatter.glsl",     "effects/emission.glsl",
+};
+
+const std::string kHeader = R"(#version 460
+#extension GL_GOOGLE_cpp_style_line_directive : require
+#define MINIRT_UINT uint
+#define minirt_vec4 vec4
+#define minirt_uvec4 uvec4
+)";
+
+[[noreturn]] void failInternally(const std::string& name, const std::string& stage, const std::string& log) {
+    throw Error("kernel '" + name + "' did not " + stage + ":\n" + log, "this is a defect of minirtc; please report it with the scene");
+}
+
+/// glslang keeps global state from its first use to the end of the process.
+void initialiseGlslang() {
+    static std::once_flag once;
+    std::call_once(once, [] { glslang::InitializeProcess(); });
+}
+
+struct Compiled {
+    std::vector<uint32_t> spirv;
+    uint32_t bindings = 0;
+};
+
+Compiled compileGlsl(const std::string& name, const std::string& source) {
+    initialiseGlslang();
+    glslang::TShader shader(EShLangCompute);
+    const char* text = source.c_str();
+    shader.setStrings(&text, 1);
+    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+    shader.setEnvClient(glslang::EShClientVulkan, kVulkan);
+    shader.setEnvTarget(glslang::EShTargetSpv, kSpirv);
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+    if (!shader.parse(GetDefaultResources(), 460, false, messages)) failInternally(name, "compile", shader.getInfoLog());
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages) || !program.buildReflection(EShReflectionAllBlockVariables)) {
+        failInternally(name, "link", program.getInfoLog());
+    }
+    Compiled result;
+    const auto note = [&](const glslang::TObjectReflection& object) {
+        if (object.getBinding() >= 0) result.bindings |= 1u << object.getBinding();
+    };
+    for (int i = 0; i < program.getNumUniformVariables(); ++i) note(program.getUniform(i));
+    for (int i = 0; i < program.getNumBufferBlocks(); ++i) note(program.getBufferBlock(i));
+    for (int i = 0; i < program.getNumUniformBlocks(); ++i) note(program.getUniformBlock(i));
+    glslang::SpvOptions options;
+    options.disableOptimizer = true;  // SPIRV-Tools does it below
+    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), result.spirv, &options);
+    return result;
+}
+
+std::vector<uint32_t> optimise(const std::string& name, const std::vector<uint32_t>& spirv) {
+    std::string log;
+    const auto consume = [&](spv_message_level_t, const char*, const spv_position_t&, const char* message) { log += std::string(message) + "\n"; };
+    spvtools::Optimizer optimizer(kToolsEnvironment);
+    optimizer.SetMessageConsumer(consume);
+    optimizer.RegisterPerformancePasses();
+    optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass());
+    std::vector<uint32_t> optimised;
+    if (!optimizer.Run(spirv.data(), spirv.size(), &optimised)) failInternally(name, "optimise", log);
+    spvtools::SpirvTools tools(kToolsEnvironment);
+    tools.SetMessageConsumer(consume);
+    if (!tools.Validate(optimised)) failInternally(name, "validate", log);
+    return optimised;
+}
+
+}  // namespace
+
+std::string composeKernel(const std::string& name, const EffectSet& effects) {
+    std::string source = kHeader;
+    for (size_t i = 0; i < kEffectCount; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        if (effects.has(effect)) source += std::string("#define ") + effectInfo(effect).define + "\n";
+    }
+    std::vector<std::string> parts = kParts;
+    parts.push_back("kernels/" + name + ".comp");
+    for (const std::string& part : parts) source += "#line 1 \"" + part + "\"\n" + shaderLibrary().at(part) + "\n";
+    return source;
+}
+
+Kernel compileKernel(const std::string& name, const EffectSet& effects) {
+    Kernel kernel;
+    kernel.name = name;
+    kernel.glsl = composeKernel(name, effects);
+    Compiled compiled = compileGlsl(name, kernel.glsl);
+    kernel.bindings = compiled.bindings;
+    kernel.spirv = optimise(name, compiled.spirv);
+    kernel.waits = effects.splits();
+    return kernel;
+}
+
+}  // namespace minirtc

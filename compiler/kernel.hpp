@@ -1,0 +1,25 @@
+// From a set of effects to SPIR-V.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "effects.hpp"
+
+namespace minirtc {
+
+struct Kernel {
+    std::string name;
+    std::string glsl;             // the whole source, as handed to glslang
+    std::vector<uint32_t> spirv;  // optimised and validated
+    uint32_t bindings = 0;        // bit b: binding b is used
+    bool waits = false;           // needs room for waiting segments
+};
+
+/// The GLSL of a kernel: the files of the shader library that it consists of, behind the defines of its effects.
+std::string composeKernel(const std::string& name, const EffectSet& effects);
+
+/// Compiles (glslang), optimises and validates (SPIRV-Tools). A failure is a defect of the project: throws Error with the log.
+Kernel compileKernel(const std::string& name, const EffectSet& effects);
+
+}  // namespace minirtc

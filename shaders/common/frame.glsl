@@ -1,0 +1,76 @@
+// What every kernel shares: specialisation, the frame that the host pushes, the film, the counters.
+
+layout(local_size_x_id = MINIRT_SPEC_GROUP_SIZE) in;
+
+// Per device class, set by the host (minirt.h); the defaults only make the module valid.
+layout(constant_id = MINIRT_SPEC_STACK_IS_SHARED) const bool STACK_IS_SHARED = false;
+layout(constant_id = MINIRT_SPEC_SHARED_STACK_WORDS) const uint SHARED_STACK_WORDS = 1u;
+layout(constant_id = MINIRT_SPEC_PRIVATE_STACK_WORDS) const uint PRIVATE_STACK_WORDS = 64u;
+layout(constant_id = MINIRT_SPEC_STEP_BUDGET) const uint STEP_BUDGET = 1048576u;
+layout(constant_id = MINIRT_SPEC_INTERLEAVE_GROUPS) const bool INTERLEAVE_GROUPS = false;
+layout(constant_id = MINIRT_SPEC_STACK_LEVELS) const uint STACK_LEVELS = 64u;
+
+layout(push_constant) uniform FrameBlock { minirt_frame frame; };
+layout(std430, binding = MINIRT_BINDING_SCENE) readonly buffer SceneBlock { minirt_scene_rows scene; };
+layout(std430, binding = MINIRT_BINDING_FILM) buffer FilmBuffer { vec4 film[]; };           // sum of radiance, number of samples
+layout(std430, binding = MINIRT_BINDING_RAY_COUNTS) buffer CountBuffer { uvec2 rayCounts[]; };  // shadow, secondary; a pixel
+layout(std430, binding = MINIRT_BINDING_COUNTERS) buffer CounterBuffer { minirt_counters counters; };
+
+/// An invocation's pixel, and its place among the pixels of the dispatch.
+struct PixelTask {
+    bool valid;  // false outside of the region
+    uvec2 pixel;
+    uint filmIndex;
+    uint slot;
+};
+
+/// Every second bit of x, packed: the inverse of Morton order.
+uint everySecondBit(uint x) {
+    x &= 0x55555555u;
+    x = (x | x >> 1) & 0x33333333u;
+    x = (x | x >> 2) & 0x0f0f0f0fu;
+    return (x | x >> 4) & 0x00ff00ffu;
+}
+
+/// A group is a block of 8 x 8 pixels in Morton order: neighbours in a subgroup see the same part of the scene.
+PixelTask pixelTask() {
+    uint group = gl_WorkGroupID.x;
+    if (INTERLEAVE_GROUPS) {  // devices that give each core one half of the grid: let both halves be alike
+        uint groups = gl_NumWorkGroups.x;
+        uint firstHalf = (groups + 1u) / 2u;
+        group = group < firstHalf ? group * 2u : (group - firstHalf) * 2u + 1u;
+    }
+    uint block = frame.blocks.x + group;
+    uint lane = gl_LocalInvocationIndex;
+    uvec2 inBlock = uvec2(everySecondBit(lane), everySecondBit(lane >> 1));
+    PixelTask task;
+    task.pixel = frame.region.xy + uvec2(block % frame.blocks.y, block / frame.blocks.y) * 8u + inBlock;
+    task.valid = task.pixel.x < frame.region.z && task.pixel.y < frame.region.w;
+    task.filmIndex = task.pixel.y * frame.size.x + task.pixel.x;
+    task.slot = group * gl_WorkGroupSize.x + lane;
+    return task;
+}
+
+/// Where sample `index` lies in its pixel: the centre first, then the R2 low-discrepancy sequence (Roberts 2018).
+vec2 pixelSample(uint index) {
+    // Fixed point: the fractional parts stay exact for any index.
+    uvec2 bits = uvec2(0x80000000u) + index * uvec2(3242174889u, 2447445414u);
+    return vec2(bits >> 8) * (1.0 / 16777216.0);
+}
+
+vec3 cameraDirection(uvec2 pixel, uint sampleIndex) {
+    vec2 at = (vec2(pixel) + pixelSample(sampleIndex)) / vec2(frame.size.xy) * 2.0 - 1.0;
+    return normalize(frame.forward.xyz + at.x * frame.right.xyz - at.y * frame.up.xyz);
+}
+
+bool hasNan(vec3 v) { return v.x != v.x || v.y != v.y || v.z != v.z; }
+
+/// Adds to a pixel; `finished` completes its sample. A NaN counts and adds nothing.
+void addToFilm(uint index, vec3 radiance, bool finished, uvec2 rays) {
+    if (hasNan(radiance)) {
+        atomicAdd(counters.nan_pixels, 1u);
+        radiance = vec3(0.0);
+    }
+    film[index] += vec4(radiance, finished ? 1.0 : 0.0);
+    rayCounts[index] += rays;
+}

@@ -1,0 +1,13 @@
+// Radiance of rays that leave the scene. Effect `background_image`: a panorama; identity: a constant.
+
+#ifdef EFFECT_BACKGROUND_IMAGE
+
+vec3 backgroundRadiance(vec3 direction) {
+    return scene.background.rgb * sampleImage(scene.counts.y, equirectUv(direction, scene.background.w));
+}
+
+#else
+
+vec3 backgroundRadiance(vec3 direction) { return scene.background.rgb; }
+
+#endif

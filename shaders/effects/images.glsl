@@ -1,0 +1,29 @@
+// Effects `textures` and `background_image` share the texels: all images of the scene, linear, in one texel buffer.
+
+#if defined(EFFECT_TEXTURES) || defined(EFFECT_BACKGROUND_IMAGE)
+
+layout(std430, binding = MINIRT_BINDING_IMAGES) readonly buffer ImageBuffer { minirt_image images[]; };
+layout(binding = MINIRT_BINDING_TEXELS) uniform samplerBuffer texels;
+
+int wrapTexel(int i, int size, bool repeats) { return repeats ? i - size * int(floor(float(i) / float(size))) : clamp(i, 0, size - 1); }
+
+/// Bilinear; texel centres at half-integers; v = 0 is the top row. `u` wraps, `v` wraps or clamps as the image says.
+vec3 sampleImage(uint index, vec2 uv) {
+    minirt_image image = images[index];
+    ivec2 size = ivec2(image.extent.xy);
+    bool repeats = (image.extent.w & MINIRT_IMAGE_REPEAT_V) != 0u;
+    vec2 at = (uv - floor(uv)) * vec2(size);
+    if (!repeats) at.y = clamp(uv.y, 0.0, 1.0) * float(size.y);
+    at -= 0.5;
+    vec2 corner = floor(at);
+    vec2 f = at - corner;
+    int x0 = wrapTexel(int(corner.x), size.x, true);
+    int x1 = wrapTexel(int(corner.x) + 1, size.x, true);
+    int row0 = int(image.extent.z) + wrapTexel(int(corner.y), size.y, repeats) * size.x;
+    int row1 = int(image.extent.z) + wrapTexel(int(corner.y) + 1, size.y, repeats) * size.x;
+    vec3 top = mix(texelFetch(texels, row0 + x0).rgb, texelFetch(texels, row0 + x1).rgb, f.x);
+    vec3 bottom = mix(texelFetch(texels, row1 + x0).rgb, texelFetch(texels, row1 + x1).rgb, f.x);
+    return mix(top, bottom, f.y) * image.scale.x;
+}
+
+#endif

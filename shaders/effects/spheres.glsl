@@ -1,0 +1,46 @@
+// Effect `spheres`: analytic spheres among the primitives. Identity: every primitive is a triangle.
+
+layout(binding = MINIRT_BINDING_PRIMITIVES) uniform samplerBuffer primitiveRows;
+
+vec4 primitiveRow(uint slot, uint row) { return texelFetch(primitiveRows, int(slot * 3u + row)); }
+
+struct PrimitiveHit {
+    bool hit;
+    float t;
+};
+
+#ifdef EFFECT_SPHERES
+
+bool isSphere(vec4 row0) { return (floatBitsToUint(row0.w) & MINIRT_PRIMITIVE_SPHERE) != 0u; }
+
+PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear shear, float tMax) {
+    vec4 row0 = primitiveRow(slot, 0u);
+    vec4 row1 = primitiveRow(slot, 1u);
+    TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, row1.xyz, primitiveRow(slot, 2u).xyz, tMax);
+    SphereHit sphere = intersectSphere(origin, direction, row0.xyz, row1.x, tMax);
+    return isSphere(row0) ? PrimitiveHit(sphere.hit, sphere.t) : PrimitiveHit(triangle.hit, triangle.t);
+}
+
+/// The point at distance t on the sphere, with its bound of error (pbrt-v4 section 6.8.5) and outward normal, where the primitive is one.
+void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, inout vec3 p, inout vec3 pError, inout vec3 ng) {
+    vec3 fromCenter = origin + direction * t - row0.xyz;
+    fromCenter *= row1.x / max(length(fromCenter), 1e-30);
+    bool sphere = isSphere(row0);
+    p = sphere ? row0.xyz + fromCenter : p;
+    pError = sphere ? errorGamma(6) * (abs(fromCenter) + abs(row0.xyz)) : pError;
+    ng = sphere ? fromCenter / row1.x : ng;
+}
+
+#else
+
+bool isSphere(vec4 row0) { return false; }
+
+PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear shear, float tMax) {
+    TriangleHit triangle = intersectTriangle(origin, shear, primitiveRow(slot, 0u).xyz, primitiveRow(slot, 1u).xyz,
+                                             primitiveRow(slot, 2u).xyz, tMax);
+    return PrimitiveHit(triangle.hit, triangle.t);
+}
+
+void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, inout vec3 p, inout vec3 pError, inout vec3 ng) {}
+
+#endif

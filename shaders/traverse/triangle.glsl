@@ -1,0 +1,57 @@
+// Watertight ray-triangle intersection (Woop, Benthin, Wald 2013). GLSL and C++ (tests/shader_source.hpp).
+
+/// A ray's direction as a shear that maps it onto the axis where it is longest.
+struct Shear {
+    vec3 scale;  // x/z, y/z, 1/z of the permuted direction
+    int axis;    // 0, 1, 2: that axis becomes z
+};
+
+/// `axis` last, the cyclic order kept.
+vec3 permute(vec3 v, int axis) {
+    if (axis == 0) return vec3(v.y, v.z, v.x);
+    if (axis == 1) return vec3(v.z, v.x, v.y);
+    return v;
+}
+
+Shear shearOf(vec3 direction) {
+    vec3 a = abs(direction);
+    Shear shear;
+    shear.axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+    vec3 d = permute(direction, shear.axis);
+    shear.scale = vec3(d.x / d.z, d.y / d.z, real(1) / d.z);
+    return shear;
+}
+
+struct TriangleHit {
+    bool hit;
+    real t;
+    real b1;  // barycentric weights of the second and third vertex
+    real b2;
+};
+
+/// Intersects the line of the ray with the triangle v0 v1 v2, for hits with 0 < t < tMax. Two triangles that share an edge leave no gap between
+/// them: the edge functions are evaluated alike on both sides, without contraction. A line in the triangle's plane misses.
+TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, real tMax) {
+    vec3 a = permute(v0 - origin, shear.axis);
+    vec3 b = permute(v1 - origin, shear.axis);
+    vec3 c = permute(v2 - origin, shear.axis);
+    PRECISE real ax = a.x - shear.scale.x * a.z;
+    PRECISE real ay = a.y - shear.scale.y * a.z;
+    PRECISE real bx = b.x - shear.scale.x * b.z;
+    PRECISE real by = b.y - shear.scale.y * b.z;
+    PRECISE real cx = c.x - shear.scale.x * c.z;
+    PRECISE real cy = c.y - shear.scale.y * c.z;
+    PRECISE real e0 = cx * by - cy * bx;
+    PRECISE real e1 = ax * cy - ay * cx;
+    PRECISE real e2 = bx * ay - by * ax;
+    real determinant = e0 + e1 + e2;
+    real inverse = real(1) / determinant;
+    TriangleHit hit;
+    hit.t = (e0 * a.z + e1 * b.z + e2 * c.z) * shear.scale.z * inverse;
+    hit.b1 = e1 * inverse;
+    hit.b2 = e2 * inverse;
+    real least = min(e0, min(e1, e2));
+    real greatest = max(e0, max(e1, e2));
+    hit.hit = (least >= real(0) || greatest <= real(0)) && determinant != real(0) && hit.t > real(0) && hit.t < tMax;
+    return hit;
+}
