@@ -130,6 +130,7 @@ void Builder::buildTop(const Subtree& subtree) {
 }
 
 bool Builder::splitParallel(const Range& range, Halves& halves) {
+    if (!(range.box.halfArea() > 0)) return false;
     const uint32_t n = chunks(range.size);
     const auto sizeOf = [&](size_t chunk) { return chunkEnd(range.size, chunk) - static_cast<uint32_t>(chunk) * kChunkSize; };
     std::vector<Box> centroids2(n);
