@@ -60,14 +60,6 @@ Aabb toAabb(const Box& b) {
     return {{b.lo[0], b.lo[1], b.lo[2]}, {b.hi[0], b.hi[1], b.hi[2]}};
 }
 
-Ref makeRef(const Primitive& primitive, uint32_t index) {
-    const Aabb box = bounds(primitive);
-    Ref ref;
-    for (int i = 0; i < 3; ++i) ref.lo[i] = box.lo[i], ref.hi[i] = box.hi[i];
-    ref.setPrimitive(index);
-    return ref;
-}
-
 /// True when leaves of `size` primitives fit below `levels` levels of inner nodes.
 bool fits(uint32_t size, uint32_t levels) {
     return size <= uint64_t{kMaxLeafSize} << levels;
@@ -89,14 +81,14 @@ Builder::Builder(const Geometry& geometry, unsigned threads)
       order_(size_) {}
 
 Bvh Builder::build() {
-    std::vector<Box> boxes(chunks(size_));
+    std::vector<Box> boxes(chunks(size_), Box::empty());
     pool_.parallelFor(boxes.size(), [&](size_t chunk) {
         for (uint32_t i = static_cast<uint32_t>(chunk) * kChunkSize; i < chunkEnd(size_, chunk); ++i) {
-            refs_[i] = makeRef(geometry_.primitives[i], i);
+            refs_[i] = Ref(bounds(geometry_.primitives[i]), i);
             boxes[chunk].grow(refs_[i]);
         }
     });
-    Box box;
+    Box box = Box::empty();
     for (const Box& b : boxes) box.grow(b);
 
     BvhChild root;
@@ -138,9 +130,9 @@ bool Builder::splitParallel(const Range& range, Halves& halves) {
     for (const Box& b : centroids2) centroids2[0].grow(b);
 
     const BinGrid grid(centroids2[0], range.size);
-    std::vector<Bins> bins(n);
+    std::vector<Bins> bins(n, Bins(grid.count));
     pool_.parallelFor(n, [&](size_t i) { bins[i].add(grid, range.refs + i * kChunkSize, sizeOf(i)); });
-    Bins sum;
+    Bins sum(grid.count);
     for (const Bins& b : bins) sum.add(b);
     const Split split = bestSplit(sum, grid);
     if (split.firstSize == 0) return false;
@@ -235,7 +227,7 @@ float subtractDown(float a, float b) {
     const float difference = a - b;
     const float bRounded = a - difference;  // TwoSum [Knuth 1969]: the rounding error, exactly
     const float error = (a - (difference + bRounded)) + (bRounded - b);
-    return error < 0 ? std::nextafter(difference, -Box::kInfinity) : difference;
+    return error < 0 ? std::nextafter(difference, -kInfinity) : difference;
 }
 
 }  // namespace

@@ -1,39 +1,44 @@
 // How the BVH builder divides primitives in two. Every function is a pure function of its input and keeps a defined order, so
 // that trees do not depend on threads.
 #pragma once
-#include <cstring>
 #include <limits>
 
 #include "bvh.hpp"
 
 namespace minirtc {
 
-/// A box of four lanes, of which three count: the shape that compilers turn into vector instructions.
-struct alignas(16) Box {
-    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    float lo[4] = {kInfinity, kInfinity, kInfinity, kInfinity};
-    float hi[4] = {-kInfinity, -kInfinity, -kInfinity, -kInfinity};
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Four numbers that compilers handle at once; GCC's and Clang's notation for what the hardware has.
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int32_t __attribute__((vector_size(16)));
+
+/// A box of four lanes, of which three count.
+struct Box {
+    Float4 lo;
+    Float4 hi;
+
+    static Box empty() { return {Float4{} + kInfinity, Float4{} - kInfinity}; }
     void grow(const Box& b) {
-        for (int i = 0; i < 4; ++i) lo[i] = b.lo[i] < lo[i] ? b.lo[i] : lo[i];
-        for (int i = 0; i < 4; ++i) hi[i] = b.hi[i] > hi[i] ? b.hi[i] : hi[i];
+        lo = b.lo < lo ? b.lo : lo;
+        hi = b.hi > hi ? b.hi : hi;
     }
     float halfArea() const {
-        const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
-        return x * y + y * z + z * x;
+        const Float4 d = hi - lo;
+        return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
     }
     /// Twice the centre: comparisons do not need the division.
+    Float4 center2() const { return lo + hi; }
     float center2(int axis) const { return lo[axis] + hi[axis]; }
 };
 
-/// The box of a primitive with the primitive's number in the idle lane of `hi`.
+/// The box of a primitive. The idle lanes hold the halves of the primitive's number, so they may pass through arithmetic.
 struct Ref : Box {
-    uint32_t primitive() const {
-        uint32_t index;
-        std::memcpy(&index, &hi[3], sizeof index);
-        return index;
-    }
-    void setPrimitive(uint32_t index) { std::memcpy(&hi[3], &index, sizeof index); }
+    Ref() = default;
+    Ref(const Aabb& box, uint32_t primitive)
+        : Box{{box.lo.x, box.lo.y, box.lo.z, static_cast<float>(primitive >> 16)},
+              {box.hi.x, box.hi.y, box.hi.z, static_cast<float>(primitive & 0xffffu)}} {}
+    uint32_t primitive() const { return static_cast<uint32_t>(lo[3]) << 16 | static_cast<uint32_t>(hi[3]); }
 };
 
 /// `size` primitives. Splits write to `spare`, of the same size, or sort `refs`; what they return tells where the halves are.
@@ -54,28 +59,36 @@ constexpr uint32_t kMaxSweepSize = 8;
 /// Divides the space of the centroids into `count` bins along each axis.
 struct BinGrid {
     uint32_t count;
-    float origin[3];
-    float scale[3];  // 0 along an axis that cannot be divided
+    Float4 origin;
+    Float4 scale;  // 0 along an axis that cannot be divided, and in the idle lane
 
     BinGrid(const Box& centroids2, uint32_t size);
-    uint32_t bin(const Box& b, int axis) const {
-        const uint32_t i = static_cast<uint32_t>(static_cast<int32_t>((b.center2(axis) - origin[axis]) * scale[axis]));
-        return i < count ? i : count - 1;
+    // Comparing turns the NaN of centres at infinity into 0.
+    Int4 bins(const Box& b) const {
+        const Float4 position = (b.center2() - origin) * scale;
+        return __builtin_convertvector(position > 0 ? position : Float4{}, Int4);
+    }
+    int32_t bin(const Box& b, int axis) const {
+        const float position = (b.center2(axis) - origin[axis]) * scale[axis];
+        return static_cast<int32_t>(position > 0 ? position : 0);
     }
 };
 
+/// What lies in the bins of a grid: one set an axis. Bins from `count` on are not there.
 struct Bins {
     Box box[3][kMaxBins];
-    uint32_t size[3][kMaxBins] = {};
+    uint32_t size[3][kMaxBins];
+    uint32_t count;
 
-    void add(const BinGrid& grid, const Ref* refs, uint32_t count);
+    explicit Bins(uint32_t count);
+    void add(const BinGrid& grid, const Ref* refs, uint32_t refCount);
     void add(const Bins& other);
     uint32_t sizeBelow(int axis, uint32_t bin) const;
 };
 
 /// Between two bins. `cost` is half area times size, summed over the halves: what SAH minimises; infinite if there is no split.
 struct Split {
-    float cost = Box::kInfinity;
+    float cost = kInfinity;
     int axis = 0;
     uint32_t bin = 0;  // the first one of the second half
     uint32_t firstSize = 0;
