@@ -49,6 +49,10 @@ constexpr uint32_t kMaxDepth = 48;
 /// The exact float bounds of a primitive.
 Aabb bounds(const Primitive& primitive);
 
+/// The expected cost of a random ray that meets the root's box: 1 a node visited, 1 a primitive tested. 0 where that box is flat
+/// in two directions, as no random ray meets it.
+double sahCost(const Bvh& bvh);
+
 /// Binned SAH on `threads` threads (0: all cores). The tree does not depend on the number of threads.
 Bvh buildBvh(const Geometry& geometry, unsigned threads);
 

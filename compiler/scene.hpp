@@ -123,7 +123,7 @@ struct Object {
     Sphere sphere;
     Rectangle rectangle;
     uint32_t material = kNone;  // index into Scene::materials; kNone: the mesh's own .mtl
-    std::vector<Transform> instances{Transform{}};  // each instance becomes a copy in the blob
+    std::vector<Transform> instances = std::vector<Transform>(1);  // each instance becomes a copy in the blob
     std::optional<bool> smooth;  // absent: smooth exactly where the OBJ gives normals
 };
 
@@ -155,6 +155,9 @@ Scene loadScene(const std::filesystem::path& path, Diagnostics& diagnostics);
 /// Reads a triangulated mesh. Materials of its .mtl are appended to `scene.materials`, their textures to `scene.images`,
 /// but only where `wantMaterials`. Throws Error.
 Mesh loadObj(const std::filesystem::path& path, bool wantMaterials, Scene& scene, Diagnostics& diagnostics);
+
+/// The index in `scene.images` of an image file (8-bit files are sRGB), read when it is not there yet. Throws Error.
+uint32_t addImage(Scene& scene, const std::filesystem::path& path);
 
 /// Reads .jpg .png .bmp .tga (8 bit, `space`), .hdr and .exr (linear). Throws Error.
 Image loadImage(const std::filesystem::path& path, ColorSpace space);

@@ -1,0 +1,146 @@
+#include "scene_materials.hpp"
+
+#include <glm/gtc/constants.hpp>
+
+#include "text_file.hpp"
+
+namespace minirtc {
+namespace {
+
+const std::vector<std::string> kPhongKeys = {"model", "diffuse",   "specular", "reflect", "refract",
+                                             "color", "shininess", "ior",      "fresnel"};
+const std::vector<std::string> kPbrKeys = {
+    "model", "baseColor",    "metallic", "roughness",        "normalTexture",       "emissive",  "alphaMode",  "alphaCutoff",
+    "thin",  "transmission", "ior",      "attenuationColor", "attenuationDistance", "inscatter", "dispersion", "glass"};
+const std::vector<std::string> kCheckerKeys = {"model", "a", "b", "scale"};
+
+Material readPhong(SceneFile& file, const JsonValue& value, const std::string& what) {
+    const JsonObject object(file, value, what, kPhongKeys);
+    const glm::vec3 color = object.color("color", glm::vec3(1), kNotNegative);
+    const float reflect = static_cast<float>(object.number("reflect", 0, kNotNegative));
+    const float refract = static_cast<float>(object.number("refract", 0, kNotNegative));
+    Material material;
+    material.diffuse = static_cast<float>(object.number("diffuse", 1, kNotNegative)) * color;
+    material.specular = static_cast<float>(object.number("specular", 0, kNotNegative)) * color;
+    material.shininess = static_cast<float>(object.number("shininess", 10, kPositive));
+    material.ior = static_cast<float>(object.number("ior", 1.5, kPositive));
+    material.fresnel = object.boolean("fresnel", false);
+    material.reflect = glm::vec3(material.fresnel ? reflect + refract : reflect);
+    material.transmit = glm::vec3(material.fresnel ? reflect + refract : refract);
+    return material;
+}
+
+/// What a pbr material asks for that would make another picture than this version can draw.
+void rejectUnsupported(const JsonObject& object, double metallic, double roughness, double transmission) {
+    const std::string later = " is not in this version";
+    object.word("alphaMode", "opaque", {"opaque"}, {"mask", "blend"});
+    if (object.has("normalTexture")) object.fail("normalTexture", "'normalTexture'" + later, "leave it out");
+    if (object.has("glass")) object.fail("glass", "'glass'" + later, "give 'ior' and 'transmission'");
+    if (object.boolean("thin", false)) object.fail("thin", "'thin'" + later, "leave it out");
+    if (metallic > 0 && transmission > 0)
+        object.fail("transmission", "a material cannot be metallic and transmissive", "set one of them to 0");
+    if (transmission > 0 && roughness > 0)
+        object.fail(object.has("roughness") ? "roughness" : "transmission", "transmission with roughness over 0" + later,
+                    "set 'roughness' to 0 (its default is 0.5)");
+    if (metallic > 0 && roughness > 0)
+        object.fail(object.has("roughness") ? "roughness" : "metallic", "metallic with roughness over 0" + later,
+                    "set 'roughness' to 0 (its default is 0.5)");
+}
+
+void warnIgnoredMedium(const JsonObject& object) {
+    object.color("attenuationColor", glm::vec3(1), kZeroToOne);
+    object.number("attenuationDistance", 1, kPositive);
+    for (const char* key : {"attenuationColor", "attenuationDistance"})
+        if (object.has(key)) object.warnIgnored(key, "glass is drawn without absorption");
+    if (object.number("inscatter", 0, kZeroToOne) > 0) object.warnIgnored("inscatter", "glass is drawn clear");
+    if (object.number("dispersion", 0, kNotNegative) > 0) object.warnIgnored("dispersion", "all wavelengths refract by 'ior'");
+}
+
+Material readPbr(SceneFile& file, const JsonValue& value, const std::string& what, Scene& scene) {
+    const JsonObject object(file, value, what, kPbrKeys);
+    const double metallic = object.number("metallic", 0, kZeroToOne);
+    const double roughness = object.number("roughness", 0.5, kZeroToOne);
+    const double transmission = object.number("transmission", 0, kZeroToOne);
+    object.number("alphaCutoff", 0.5, kZeroToOne);
+    rejectUnsupported(object, metallic, roughness, transmission);
+    warnIgnoredMedium(object);
+
+    Material material;
+    glm::vec3 baseColor(1);
+    const JsonValue* base = object.find("baseColor");
+    if (base && base->type == JsonType::string) {
+        if (metallic > 0 || transmission > 0)
+            object.fail("baseColor", "a texture on metal or glass is not in this version", "give 'baseColor' as [r, g, b]");
+        material.diffuseTexture = addImage(scene, object.file("baseColor"));
+    } else {
+        baseColor = object.color("baseColor", baseColor, kZeroToOne);
+    }
+    material.diffuse = baseColor * static_cast<float>((1 - metallic) * (1 - transmission)) * glm::one_over_pi<float>();
+    material.reflect = metallic > 0 ? baseColor * static_cast<float>(metallic) : glm::vec3(static_cast<float>(transmission));
+    material.transmit = baseColor * static_cast<float>(transmission);
+    material.fresnel = transmission > 0;
+    material.ior = static_cast<float>(object.number("ior", 1.5, kPositive));
+    material.emission = object.color("emissive", glm::vec3(0), kNotNegative);
+    return material;
+}
+
+Material readChecker(SceneFile& file, const JsonValue& value, const std::string& what) {
+    const JsonObject object(file, value, what, kCheckerKeys);
+    Material material;
+    material.checker = true;
+    material.checkerScale = static_cast<float>(object.number("scale", 1, kPositive));
+    object.text("a");
+    object.text("b");
+    return material;
+}
+
+std::string readModel(SceneFile& file, const JsonValue& value, const std::string& what) {
+    requireType(file, value, what, JsonType::object);
+    const JsonValue* model = value.find("model");
+    if (!model) throw Error(file.at(value), what + " has no 'model'", "add \"model\": \"phong\", \"pbr\" or \"checker\"");
+    requireType(file, *model, "'model'", JsonType::string);
+    const std::vector<std::string> known = {"phong", "pbr", "checker"};
+    for (const std::string& name : known)
+        if (model->string == name) return name;
+    throw Error(file.at(*model), "'model' is " + inQuotes(model->string), suggest(model->string, known));
+}
+
+uint32_t findCheckerPart(const SceneFile& file, const JsonValue& name, const Scene& scene) {
+    const uint32_t index = findMaterial(file, name, scene);
+    if (scene.materials[index].checker)
+        throw Error(file.at(name), inQuotes(name.string) + " is a checker itself", "name a phong or pbr material");
+    return index;
+}
+
+}  // namespace
+
+uint32_t findMaterial(const SceneFile& file, const JsonValue& name, const Scene& scene) {
+    requireType(file, name, "a material's name", JsonType::string);
+    for (uint32_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i].name == name.string) return i;
+    std::vector<std::string> known;
+    for (const Material& material : scene.materials) known.push_back(material.name);
+    throw Error(file.at(name), "there is no material " + inQuotes(name.string),
+                known.empty() ? "add it under 'materials'" : suggest(name.string, known));
+}
+
+void readMaterials(SceneFile& file, const JsonValue& materials, Scene& scene) {
+    requireType(file, materials, "'materials'", JsonType::object);
+    for (const JsonMember& member : materials.members) {
+        const std::string what = "the material " + inQuotes(member.key);
+        const std::string model = readModel(file, member.value, what);
+        Material material = model == "phong" ? readPhong(file, member.value, what)
+                            : model == "pbr" ? readPbr(file, member.value, what, scene)
+                                             : readChecker(file, member.value, what);
+        material.name = member.key;
+        scene.materials.push_back(material);
+    }
+    for (size_t i = 0; i < materials.members.size(); ++i) {
+        if (!scene.materials[i].checker) continue;
+        const JsonValue& checker = materials.members[i].value;
+        scene.materials[i].checkerA = findCheckerPart(file, *checker.find("a"), scene);
+        scene.materials[i].checkerB = findCheckerPart(file, *checker.find("b"), scene);
+    }
+}
+
+}  // namespace minirtc

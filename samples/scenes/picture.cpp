@@ -1,0 +1,43 @@
+#include "picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "output.hpp"
+
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+
+namespace samples {
+namespace {
+
+unsigned char srgb8(float linear) {
+    const double c = std::clamp(static_cast<double>(linear), 0.0, 1.0);
+    const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+    return static_cast<unsigned char>(std::lround(255 * encoded));
+}
+
+}  // namespace
+
+Picture paint(int width, int height, const std::function<glm::dvec3(double, double)>& colorAt) {
+    Picture picture{width, height, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) picture.pixels.push_back(glm::vec3(colorAt((x + 0.5) / width, (y + 0.5) / height)));
+    }
+    return picture;
+}
+
+void writeHdr(const Picture& picture, const std::filesystem::path& path) {
+    if (stbi_write_hdr(path.string().c_str(), picture.width, picture.height, 3, &picture.pixels[0].x) == 0)
+        throwCannotWrite(path);
+}
+
+void writePng(const Picture& picture, const std::filesystem::path& path) {
+    std::vector<unsigned char> bytes;
+    for (const glm::vec3& pixel : picture.pixels) bytes.insert(bytes.end(), {srgb8(pixel.r), srgb8(pixel.g), srgb8(pixel.b)});
+    if (stbi_write_png(path.string().c_str(), picture.width, picture.height, 3, bytes.data(), 3 * picture.width) == 0)
+        throwCannotWrite(path);
+}
+
+}  // namespace samples

@@ -1,0 +1,30 @@
+// Pictures that the sample scenes need, and the files they go to.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace samples {
+
+/// Linear RGB, row 0 at the top.
+struct Picture {
+    int width;
+    int height;
+    std::vector<glm::vec3> pixels;
+};
+
+/// `colorAt(u, v)` at the centre of every pixel; u to the right, v down, both in [0,1].
+Picture paint(int width, int height, const std::function<glm::dvec3(double, double)>& colorAt);
+
+/// Equirectangular evening sky over a dark plain with three soft boxes; +Y at the top row, -Z at u = 1/4. Linear radiance.
+Picture eveningSky(int width, int height);
+
+/// Cobalt bands and petals on white, for the vase: repeats in u, v = 0 at the top.
+Picture porcelain(int width, int height);
+
+/// Both throw std::runtime_error when the file cannot be written.
+void writeHdr(const Picture& picture, const std::filesystem::path& path);
+void writePng(const Picture& picture, const std::filesystem::path& path);  // sRGB, clamped
+
+}  // namespace samples

@@ -1,0 +1,102 @@
+#include <cmath>
+#include <cstdint>
+#include <glm/gtc/constants.hpp>
+
+#include "picture.hpp"
+
+namespace samples {
+namespace {
+
+/// A lamp in the sky: a rectangle around `centre`, half extents as tangents, with a soft edge.
+struct SoftBox {
+    glm::dvec3 centre;  // unit
+    double halfWidth;
+    double halfHeight;
+    glm::dvec3 radiance;
+};
+
+/// `azimuth` in degrees to the right of -Z, `elevation` above the horizon.
+glm::dvec3 toward(double azimuth, double elevation) {
+    const double a = glm::radians(azimuth);
+    const double e = glm::radians(elevation);
+    return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
+}
+
+glm::dvec3 glow(const SoftBox& box, const glm::dvec3& d) {
+    constexpr double kEdge = 0.06;
+    const double ahead = glm::dot(d, box.centre);
+    if (ahead <= 0) return glm::dvec3(0);
+    const glm::dvec3 right = glm::normalize(glm::cross(box.centre, glm::dvec3(0, 1, 1e-3)));
+    const glm::dvec3 up = glm::cross(right, box.centre);
+    const double x = std::abs(glm::dot(d, right)) / ahead;
+    const double y = std::abs(glm::dot(d, up)) / ahead;
+    return box.radiance * (1 - glm::smoothstep(box.halfWidth - kEdge, box.halfWidth + kEdge, x)) *
+           (1 - glm::smoothstep(box.halfHeight - kEdge, box.halfHeight + kEdge, y));
+}
+
+/// Uniform in [0,1), a pure function of the lattice point (finaliser of MurmurHash3, A. Appleby).
+double lattice(const glm::ivec3& p) {
+    uint32_t h =
+        static_cast<uint32_t>(p.x) * 73856093u ^ static_cast<uint32_t>(p.y) * 19349663u ^ static_cast<uint32_t>(p.z) * 83492791u;
+    h = (h ^ h >> 16) * 0x85ebca6bu;
+    h = (h ^ h >> 13) * 0xc2b2ae35u;
+    return (h ^ h >> 16) / 4294967296.0;
+}
+
+double valueNoise(const glm::dvec3& p) {
+    const glm::dvec3 cell = glm::floor(p);
+    const glm::dvec3 t = glm::smoothstep(glm::dvec3(0), glm::dvec3(1), p - cell);
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::ivec3 offset{corner & 1, corner >> 1 & 1, corner >> 2};
+        const glm::dvec3 weight = glm::mix(1.0 - t, t, glm::dvec3(offset));
+        sum += weight.x * weight.y * weight.z * lattice(glm::ivec3(cell) + offset);
+    }
+    return sum;
+}
+
+/// Streaks of cloud on a layer overhead, 0 to 1, thinning out towards the horizon's haze.
+double clouds(const glm::dvec3& d) {
+    const glm::dvec3 onLayer = glm::dvec3{d.x, 0, 2.2 * d.z} / (d.y + 0.18);
+    double sum = 0;
+    for (int octave = 0; octave < 5; ++octave) sum += valueNoise(onLayer * (1.7 * (1 << octave)) + 17.0 * octave) / (2 << octave);
+    return glm::smoothstep(0.46, 0.78, sum) * glm::smoothstep(0.02, 0.25, d.y);
+}
+
+glm::dvec3 sky(const glm::dvec3& d) {
+    const glm::dvec3 zenith{0.055, 0.10, 0.24};
+    const glm::dvec3 middle{0.25, 0.30, 0.46};
+    const glm::dvec3 horizon{0.95, 0.56, 0.36};
+    const glm::dvec3 sunward = toward(24, 3);
+    const double nearSun = 0.5 + 0.5 * glm::dot(d, sunward);
+    const glm::dvec3 low = glm::mix(glm::dvec3(0.42, 0.36, 0.46), horizon, std::pow(nearSun, 3));
+    glm::dvec3 color = glm::mix(low, middle, glm::smoothstep(0.0, 0.28, d.y));
+    color = glm::mix(color, zenith, glm::smoothstep(0.15, 0.95, d.y));
+    color = glm::mix(color, glm::mix(glm::dvec3(0.5, 0.42, 0.48), glm::dvec3(1.25, 0.78, 0.55), std::pow(nearSun, 4)),
+                     0.75 * clouds(d));
+    return color + glm::dvec3(2.2, 1.2, 0.55) * std::pow(nearSun, 60) + glm::dvec3(9, 6, 3.2) * std::pow(nearSun, 900);
+}
+
+glm::dvec3 plain(const glm::dvec3& d) {
+    const glm::dvec3 far{0.20, 0.145, 0.14};
+    const glm::dvec3 below{0.035, 0.032, 0.04};
+    return glm::mix(far, below, glm::smoothstep(0.0, 0.5, -d.y));
+}
+
+}  // namespace
+
+Picture eveningSky(int width, int height) {
+    const SoftBox boxes[] = {{toward(-118, 38), 0.62, 0.40, {6.5, 5.8, 5.0}},  // key, behind the camera's left shoulder
+                             {toward(128, 30), 0.16, 0.75, {3.0, 4.2, 6.0}},   // cool strip on the right
+                             {toward(5, 82), 0.55, 0.55, {3.2, 3.3, 3.5}}};    // overhead
+    return paint(width, height, [&](double u, double v) {
+        const double azimuth = glm::two_pi<double>() * (u - 0.5);
+        const double polar = glm::pi<double>() * v;
+        const glm::dvec3 d{std::cos(azimuth) * std::sin(polar), std::cos(polar), std::sin(azimuth) * std::sin(polar)};
+        glm::dvec3 color = glm::mix(plain(d), sky(d), glm::smoothstep(-0.012, 0.012, d.y));
+        for (const SoftBox& box : boxes) color += glow(box, d);
+        return color;
+    });
+}
+
+}  // namespace samples

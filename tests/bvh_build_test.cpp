@@ -1,0 +1,279 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "bvh.hpp"
+
+using namespace minirtc;
+
+namespace {
+
+Primitive triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    Primitive primitive;
+    primitive.p = {a, b, c};
+    return primitive;
+}
+
+Primitive sphere(const glm::vec3& center, float radius) {
+    Primitive primitive;
+    primitive.p = {center, glm::vec3(radius, 0, 0), glm::vec3(0)};
+    primitive.isSphere = true;
+    return primitive;
+}
+
+Geometry repeat(const Primitive& primitive, size_t count) {
+    Geometry geometry;
+    geometry.primitives.assign(count, primitive);
+    return geometry;
+}
+
+/// Triangles and spheres of many sizes at random places.
+Geometry soup(size_t count, uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto uniform = [&] { return static_cast<float>(random()) * 0x1p-32f * 2 - 1; };
+    const auto point = [&] {
+        const float x = uniform(), y = uniform(), z = uniform();
+        return glm::vec3(x, y, z);
+    };
+    Geometry geometry;
+    for (size_t i = 0; i < count; ++i) {
+        const glm::vec3 p = point() * 100.0f;
+        const float size = std::exp2(8 * uniform());
+        if (i % 10 == 0)
+            geometry.primitives.push_back(sphere(p, size));
+        else
+            geometry.primitives.push_back(triangle(p, p + size * point(), p + size * point()));
+    }
+    return geometry;
+}
+
+/// A square of 2 n^2 triangles with a bump.
+Geometry hill(int n, float height) {
+    const auto point = [&](int i, int j) {
+        const float x = static_cast<float>(i) / static_cast<float>(n), y = static_cast<float>(j) / static_cast<float>(n);
+        return glm::vec3(x, y, height * std::sin(3 * x) * std::cos(4 * y));
+    };
+    Geometry geometry;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            geometry.primitives.push_back(triangle(point(i, j), point(i + 1, j), point(i + 1, j + 1)));
+            geometry.primitives.push_back(triangle(point(i, j), point(i + 1, j + 1), point(i, j + 1)));
+        }
+    return geometry;
+}
+
+bool equal(const Aabb& a, const Aabb& b) {
+    return a.lo == b.lo && a.hi == b.hi;
+}
+
+/// What a walk over the whole tree finds; throws where the tree breaks a promise of bvh.hpp.
+struct Walk {
+    const Geometry& geometry;
+    const Bvh& bvh;
+    uint32_t nextNode = 0;
+    uint32_t nextPrimitive = 0;
+    uint32_t leaves = 0;
+    uint32_t depth = 0;
+
+    Aabb visit(const BvhChild& child, uint32_t level) {
+        Aabb box;
+        if (child.count > 0) {
+            ++leaves;
+            REQUIRE(child.count <= kMaxLeafSize);
+            REQUIRE(child.index == nextPrimitive);
+            nextPrimitive += child.count;
+            for (uint32_t i = 0; i < child.count; ++i) box.grow(bounds(geometry.primitives.at(bvh.order.at(child.index + i))));
+        } else {
+            REQUIRE(child.index == nextNode);
+            box = visitNode(level);
+        }
+        REQUIRE(equal(box, child.box));
+        return box;
+    }
+
+    Aabb visitNode(uint32_t level) {
+        const BvhNode& node = bvh.nodes.at(nextNode++);
+        depth = std::max(depth, level);
+        Aabb box = visit(node.child[0], level + 1);
+        box.grow(visit(node.child[1], level + 1));
+        return box;
+    }
+};
+
+void checkOrder(const Bvh& bvh, size_t primitives) {
+    std::vector<uint32_t> sorted = bvh.order;
+    std::sort(sorted.begin(), sorted.end());
+    REQUIRE(sorted.size() == primitives);
+    for (uint32_t i = 0; i < sorted.size(); ++i) REQUIRE(sorted[i] == i);
+}
+
+Bvh buildChecked(const Geometry& geometry, unsigned threads = 2) {
+    const Bvh bvh = buildBvh(geometry, threads);
+    checkOrder(bvh, geometry.primitives.size());
+    Walk walk{geometry, bvh};
+    walk.visitNode(1);
+    REQUIRE(walk.nextNode == bvh.nodes.size());
+    REQUIRE(walk.nextPrimitive == bvh.order.size());
+    REQUIRE(walk.leaves == bvh.leaves);
+    REQUIRE(walk.depth == bvh.depth);
+    REQUIRE(bvh.depth <= kMaxDepth);
+    REQUIRE(std::isfinite(bvh.sahCost));
+    REQUIRE(bvh.sahCost == sahCost(bvh));
+    return bvh;
+}
+
+template <typename T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("bounds of a triangle are its exact extremes") {
+    const Aabb box = bounds(triangle({1, 5, -3}, {2, -4, 0}, {0.1f, 0, 7}));
+    CHECK(equal(box, {{0.1f, -4, -3}, {2, 5, 7}}));
+}
+
+TEST_CASE("bounds of a sphere contain it, and are exact where float can be") {
+    CHECK(equal(bounds(sphere({1, -2, 0.5f}, 2)), {{-1, -4, -1.5f}, {3, 0, 2.5f}}));
+    std::mt19937 random(1);
+    for (int i = 0; i < 10000; ++i) {
+        const float center = std::ldexp(static_cast<float>(random()) - 0x1p31f, static_cast<int>(random() % 40) - 50);
+        const float radius = std::ldexp(static_cast<float>(random()), static_cast<int>(random() % 40) - 60);
+        const Aabb box = bounds(sphere(glm::vec3(center), radius));
+        const double lo = double(center) - radius, hi = double(center) + radius;  // exact: far fewer than 53 bits apart
+        REQUIRE(box.lo.x <= lo);
+        REQUIRE(std::nextafter(box.lo.x, INFINITY) > lo);
+        REQUIRE(box.hi.x >= hi);
+        REQUIRE(std::nextafter(box.hi.x, -INFINITY) < hi);
+    }
+}
+
+TEST_CASE("a single primitive gives one node whose second child is empty") {
+    const Geometry geometry = repeat(triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), 1);
+    const Bvh bvh = buildBvh(geometry, 2);
+    REQUIRE(bvh.nodes.size() == 1);
+    const BvhNode& root = bvh.nodes[0];
+    CHECK(equal(root.child[0].box, bounds(geometry.primitives[0])));
+    CHECK(root.child[0].count == 1);
+    CHECK(equal(root.child[1].box, Aabb()));
+    CHECK(root.child[1].index == root.child[0].index);
+    CHECK(root.child[1].count == root.child[0].count);
+    CHECK(bvh.order == std::vector<uint32_t>{0});
+    CHECK(bvh.depth == 1);
+    CHECK(bvh.leaves == 1);
+    CHECK(bvh.sahCost == 2);
+}
+
+TEST_CASE("a few primitives in one place share a leaf") {
+    for (uint32_t count = 2; count <= kMaxLeafSize; ++count) {
+        const Bvh bvh = buildBvh(repeat(sphere({0, 0, 0}, 1), count), 2);
+        checkOrder(bvh, count);
+        REQUIRE(bvh.nodes.size() == 1);
+        CHECK(bvh.nodes[0].child[0].count == count);
+        CHECK(bvh.nodes[0].child[1].count == count);
+        CHECK(equal(bvh.nodes[0].child[1].box, Aabb()));
+        CHECK(bvh.leaves == 1);
+        CHECK(bvh.sahCost == 1 + count);
+    }
+}
+
+TEST_CASE("two primitives far apart get a leaf each") {
+    Geometry geometry = repeat(sphere({0, 0, 0}, 1), 2);
+    geometry.primitives[1] = sphere({100, 0, 0}, 1);
+    const Bvh bvh = buildChecked(geometry);
+    CHECK(bvh.leaves == 2);
+    CHECK(bvh.depth == 1);
+}
+
+TEST_CASE("trees of ordinary input keep every promise") {
+    for (uint32_t size = 5; size < 200; size += 13) buildChecked(soup(size, size));
+    for (const size_t size : {1000, 9000, 50000}) buildChecked(soup(size, 7));
+    buildChecked(hill(100, 0.3f));
+    buildChecked(hill(100, 0.0f));  // all in a plane
+}
+
+TEST_CASE("the tree does not depend on the number of threads") {
+    for (const Geometry& geometry : {soup(60000, 3), hill(150, 0.2f), repeat(sphere({0, 0, 0}, 1), 20000), soup(5, 1)}) {
+        const Bvh expected = buildBvh(geometry, 1);
+        for (const unsigned threads : {2u, 3u, 7u, 0u}) {
+            const Bvh bvh = buildBvh(geometry, threads);
+            CHECK(sameBytes(bvh.nodes, expected.nodes));
+            CHECK(sameBytes(bvh.order, expected.order));
+            CHECK(bvh.sahCost == expected.sahCost);
+        }
+    }
+}
+
+TEST_CASE("identical primitives are divided evenly") {
+    const Bvh bvh = buildChecked(repeat(triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), 100000));
+    CHECK(bvh.depth <= 16);
+}
+
+TEST_CASE("concentric spheres keep every promise") {
+    Geometry geometry;
+    for (int i = 0; i < 5000; ++i) geometry.primitives.push_back(sphere({3, 1, 2}, static_cast<float>(i + 1)));
+    buildChecked(geometry);
+}
+
+TEST_CASE("exponentially growing sizes stay within the depth bound") {
+    for (const float growth : {1.02f, 1.1f, 1.5f, 2.0f}) {
+        Geometry geometry;
+        for (float x = 1e-15f; x < 1e15f; x *= growth)
+            for (int copy = 0; copy < 20; ++copy)
+                geometry.primitives.push_back(triangle({x, 0, 0}, {x * growth, 0, 0}, {x, x, x * static_cast<float>(copy)}));
+        buildChecked(geometry);
+    }
+}
+
+TEST_CASE("one huge primitive among tiny ones keeps every promise") {
+    Geometry geometry = hill(60, 0.1f);
+    geometry.primitives.insert(geometry.primitives.begin() + 1234,
+                               triangle({-1e6f, -1e6f, 0}, {1e6f, -1e6f, 0}, {0, 1e6f, 1e6f}));
+    buildChecked(geometry);
+}
+
+TEST_CASE("coordinates at the ends of the range of float keep every promise") {
+    for (const float scale : {1e-44f, 1e-38f, 1e-20f, 1e18f, 9e35f}) {
+        Geometry geometry = soup(20000, 5);
+        for (Primitive& primitive : geometry.primitives)
+            for (glm::vec3& p : primitive.p) p *= scale;
+        const Bvh bvh = buildBvh(geometry, 2);
+        checkOrder(bvh, geometry.primitives.size());
+        Walk walk{geometry, bvh};
+        walk.visitNode(1);
+        CHECK(walk.depth <= kMaxDepth);
+    }
+}
+
+TEST_CASE("points on a line, whose boxes have no area, keep every promise") {
+    Geometry geometry;
+    for (int i = 0; i < 3000; ++i) {
+        const glm::vec3 p(static_cast<float>(i * i % 3001), 0, 0);
+        geometry.primitives.push_back(triangle(p, p, p));
+    }
+    const Bvh bvh = buildChecked(geometry);
+    CHECK(bvh.sahCost == 0);
+    CHECK(bvh.depth <= 13);
+}
+
+TEST_CASE("sahCost of a tree made by hand is the sum over its boxes") {
+    // Half areas: root 1*1+1*4+4*1 = 9, the inner child 1+2+2 = 5, the leaves 3, 3 and 1*1+1*.5+.5*1 = 2.
+    Bvh bvh;
+    bvh.nodes.resize(2);
+    bvh.nodes[0].child[0] = {{{0, 0, 0}, {2, 1, 1}}, 1, 0};
+    bvh.nodes[0].child[1] = {{{3.5f, 0, 0}, {4, 1, 1}}, 3, 4};
+    bvh.nodes[1].child[0] = {{{0, 0, 0}, {1, 1, 1}}, 0, 1};
+    bvh.nodes[1].child[1] = {{{1, 0, 0}, {2, 1, 1}}, 1, 2};
+    CHECK(sahCost(bvh) == doctest::Approx((9 + 5 + 3 * 1 + 3 * 2 + 2 * 4) / 9.0));
+}
+
+TEST_CASE("spheres far from one another get a leaf each") {
+    Geometry geometry;
+    for (int i = 0; i < 4096; ++i) geometry.primitives.push_back(sphere({i % 16 * 10, i / 16 % 16 * 10, i / 256 * 10}, 1));
+    const Bvh bvh = buildChecked(geometry);
+    CHECK(bvh.leaves == 4096);
+}

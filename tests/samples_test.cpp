@@ -1,0 +1,184 @@
+// The sample shapes are what nested volumes need: closed, oriented outward, of the size they claim.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "gems.hpp"
+#include "generate.hpp"
+#include "ice.hpp"
+#include "knot.hpp"
+#include "lathe.hpp"
+#include "polyhedron.hpp"
+#include "scene_files.hpp"
+#include "sphere.hpp"
+#include "support.hpp"
+#include "vessels.hpp"
+
+namespace {
+
+constexpr double kPi = glm::pi<double>();
+
+samples::Tumbler flutedTumbler() {
+    samples::Tumbler shape;
+    shape.flutes = 16;
+    return shape;
+}
+
+/// Reads back positions and faces; enough of the format for the generator's own files.
+samples::Mesh readObj(const std::filesystem::path& path) {
+    samples::Mesh mesh;
+    std::ifstream file(path);
+    std::string line;
+    while (std::getline(file, line)) {
+        std::istringstream words(line);
+        std::string word;
+        words >> word;
+        if (word == "v") {
+            glm::dvec3 p;
+            words >> p.x >> p.y >> p.z;
+            mesh.positions.push_back(p);
+        } else if (word == "f") {
+            std::vector<uint32_t> face;
+            while (words >> word) face.push_back(static_cast<uint32_t>(std::stoul(word) - 1));
+            mesh.faces.push_back(samples::makeFace(face));
+        }
+    }
+    return mesh;
+}
+
+std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::ifstream file(entry.path(), std::ios::binary);
+        files[entry.path().filename().string()] = std::string(std::istreambuf_iterator<char>(file), {});
+    }
+    return files;
+}
+
+}  // namespace
+
+TEST_CASE("every sample mesh is a closed manifold that faces outward as written to its file") {
+    const test::TemporaryDir folder;
+    samples::generate(folder.path());
+    int meshes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        if (entry.path().extension() != ".obj") continue;
+        CAPTURE(entry.path().filename().string());
+        const samples::Mesh mesh = readObj(entry.path());
+        CHECK(samples::manifoldDefect(mesh) == "");
+        CHECK(samples::signedVolume(mesh) > 0);
+        ++meshes;
+    }
+    CHECK(meshes >= 12);
+}
+
+TEST_CASE("two runs of the generator write the same bytes") {
+    const test::TemporaryDir first;
+    const test::TemporaryDir second;
+    samples::generate(first.path());
+    samples::generate(second.path() / "made" / "on the way");
+    CHECK(contents(first.path()) == contents(second.path() / "made" / "on the way"));
+}
+
+TEST_CASE("the generator writes every scene file unchanged") {
+    const test::TemporaryDir folder;
+    samples::generate(folder.path());
+    const auto written = contents(folder.path());
+    const auto source = contents(std::filesystem::path(MINIRT_SOURCE_DIR) / "samples" / "scenes");
+    REQUIRE(samples::sceneFiles().size() >= 6);
+    for (const auto& [name, text] : samples::sceneFiles()) {
+        CAPTURE(name);
+        CHECK(written.at(name) == source.at(name));
+    }
+}
+
+TEST_CASE("manifoldDefect names a hole and a flipped face") {
+    samples::Mesh open = samples::prism(3, 1, 1);
+    open.faces.pop_back();
+    CHECK(samples::manifoldDefect(open).find("no opposite") != std::string::npos);
+    samples::Mesh flipped = samples::prism(3, 1, 1);
+    std::reverse(flipped.faces[0].begin(), flipped.faces[0].end());
+    CHECK(samples::manifoldDefect(flipped).find("2 times") != std::string::npos);
+}
+
+TEST_CASE("the volume of a prism is its base times its height") {
+    CHECK(samples::signedVolume(samples::prism(3, 2, 5)) == doctest::Approx(std::sqrt(3.0) * 5));
+    CHECK(samples::signedVolume(samples::prism(4, 2, 5)) == doctest::Approx(4 * 5));
+    CHECK(samples::signedVolume(samples::prism(6, 2, 5)) == doctest::Approx(1.5 * std::sqrt(3.0) * 4 * 5));
+}
+
+TEST_CASE("the volume of a turned cylinder is that of the regular prism it is made of") {
+    constexpr int kSegments = 24;
+    const double base = 0.5 * kSegments * std::sin(2 * kPi / kSegments) * 9;
+    CHECK(samples::signedVolume(samples::lathe({{0, 0}, {3, 0}, {3, 7}, {0, 7}}, kSegments)) == doctest::Approx(base * 7));
+}
+
+TEST_CASE("sphere, rounded box and knot approach their closed forms from below") {
+    const auto fallsShort = [](const samples::Mesh& mesh, double exact, double relative) {
+        const double volume = samples::signedVolume(mesh);
+        CHECK(volume < exact);
+        CHECK(volume > exact * (1 - relative));
+    };
+    fallsShort(samples::icosphere(4), 4 * kPi / 3, 0.004);
+    const double r = 0.25;  // of a box whose flat core is 1.5 x 2.5 x 3.5
+    const double rounding =
+        2 * r * (1.5 * 2.5 + 2.5 * 3.5 + 3.5 * 1.5) + kPi * r * r * (1.5 + 2.5 + 3.5) + 4 * kPi / 3 * r * r * r;
+    fallsShort(samples::roundedBox({2, 3, 4}, r, 8), 1.5 * 2.5 * 3.5 + rounding, 0.002);
+    samples::TorusKnot torus;  // unknotted: Pappus
+    torus.p = 1;
+    torus.q = 0;
+    torus.ringRadius = 2;
+    torus.windingRadius = 0.5;
+    fallsShort(samples::torusKnot(torus), 2 * kPi * 2.5 * kPi * torus.tubeRadius * torus.tubeRadius, 0.01);
+}
+
+TEST_CASE("the brilliant has 57 facets and a girdle") {
+    const samples::Mesh gem = samples::brilliantCut();
+    int crown = 0;
+    int girdle = 0;
+    int pavilion = 0;
+    for (const samples::Face& face : gem.faces) {
+        const double up = glm::normalize(samples::areaVector(gem, face)).y;
+        ++(up > 0.1 ? crown : up < -0.1 ? pavilion : girdle);
+    }
+    CHECK(crown == 1 + 8 + 8 + 16);
+    CHECK(pavilion == 16 + 8);
+    CHECK(girdle == samples::kBrilliantGirdleFacets);
+}
+
+TEST_CASE("the step cut has three rows of facets on either side of the girdle") {
+    const samples::Mesh gem = samples::stepCut(1, 1);
+    CHECK(gem.faces.size() == 1 + 8 * 7);
+}
+
+TEST_CASE("the filling reaches into the tumbler but not through it") {
+    const samples::Tumbler shape;
+    const samples::Mesh filling = samples::tumblerFilling(shape, 0.05, 0.0003);
+    double lowest = 1;
+    for (const glm::dvec3& p : filling.positions) {
+        const double outside = glm::mix(shape.bottomRadius, shape.topRadius, p.y / shape.height);
+        CHECK(std::hypot(p.x, p.z) < outside - shape.wall / 2);
+        lowest = std::min(lowest, p.y);
+    }
+    CHECK(lowest == doctest::Approx(shape.base - 0.0003));
+}
+
+TEST_CASE("fluting removes glass") {
+    CHECK(samples::signedVolume(samples::tumbler(flutedTumbler())) < samples::signedVolume(samples::tumbler({})));
+}
+
+TEST_CASE("normals are shared where the surface is smooth and split at creases") {
+    samples::Mesh box = samples::prism(4, 1, 1);
+    samples::addNormals(box, 30);
+    CHECK(box.normals.size() == 24);
+    samples::addNormals(box, 180);
+    CHECK(box.normals.size() == 8);
+    for (const samples::Corner& corner : box.faces[0]) {
+        CHECK(glm::dot(box.normals[corner.normal], glm::normalize(box.positions[corner.position])) == doctest::Approx(1));
+    }
+}
