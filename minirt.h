@@ -341,6 +341,8 @@ MINIRT_API minirt_result minirt_validate(const void* data, size_t size, minirt_b
 
 /* 64-bit checksum of `size` bytes, a multiple of 32; any change of one byte changes it. */
 MINIRT_API uint64_t minirt_checksum(const void* data, size_t size);
+/* What belongs into minirt_blob_header::checksum: of the first `size` bytes (header, table, padding; at least 64), that field counted as 0. */
+MINIRT_API uint64_t minirt_header_checksum(const void* data, size_t size);
 
 /* Validates and uploads. The data may be freed afterwards. On failure *out is NULL. */
 MINIRT_API minirt_result minirt_load_memory(minirt_context* context, const void* data, size_t size, minirt_scene** out);
@@ -551,19 +553,11 @@ inline minirt_result readHeader(BlobReader& r) {
 
 inline uint64_t alignSection(uint64_t size) { return (size + (MINIRT_SECTION_ALIGNMENT - 1)) & ~uint64_t(MINIRT_SECTION_ALIGNMENT - 1); }
 
-/* Header and table are covered by the header's checksum; its own field counts as 0 (offset 40 of the first 64 bytes). */
-inline uint64_t headerChecksum(const uint8_t* data, uint64_t size) {
-    uint8_t first[64];
-    memcpy(first, data, sizeof first);
-    memset(first + offsetof(minirt_blob_header, checksum), 0, sizeof(uint64_t));
-    return minirt_checksum(first, sizeof first) ^ (minirt_checksum(data + 64, static_cast<size_t>(size - 64)) * 0xC2B2AE3D27D4EB4Full);
-}
-
 inline minirt_result readTable(BlobReader& r, minirt_blob_section* table) {
     const uint64_t tableEnd = sizeof r.header + uint64_t(r.header.section_count) * sizeof(minirt_blob_section);
     const uint64_t headerSize = alignSection(tableEnd);
     if (headerSize > r.size) return r.fail(MINIRT_ERROR_TRUNCATED, "the file ends inside the section table; bake it again");
-    if (headerChecksum(r.data, headerSize) != r.header.checksum)
+    if (minirt_header_checksum(r.data, static_cast<size_t>(headerSize)) != r.header.checksum)
         return r.fail(MINIRT_ERROR_CHECKSUM, "header or section table are damaged; bake the scene again");
     memcpy(table, r.data + sizeof r.header, r.header.section_count * sizeof(minirt_blob_section));
     uint64_t expected = headerSize;
@@ -667,7 +661,7 @@ inline minirt_result checkNodes(BlobReader& r, const minirt_blob& b, uint8_t* de
         const uint32_t* node = b.nodes + i * words;
         if (depth[i] == 0) return r.fail(MINIRT_ERROR_CORRUPT, "node %llu has no parent before it", i);
         for (int child = 0; child < 2; ++child) {
-            const uint32_t ref = node[3 + 4 * child];
+            const uint32_t ref = node[3 + (isFloat ? 8 : 4) * child];
             if (ref & MINIRT_LEAF) {
                 const uint64_t first = (ref & ~MINIRT_LEAF) >> 3;
                 const uint64_t count = (ref & 7u) + 1;
@@ -1945,6 +1939,15 @@ uint64_t minirt_checksum(const void* data, size_t size) {
     uint64_t sum = size;
     for (uint64_t lane : lanes) sum = minirt_detail::mixLane(sum, lane);
     return sum;
+}
+
+uint64_t minirt_header_checksum(const void* data, size_t size) {
+    constexpr size_t kHeader = sizeof(minirt_blob_header);
+    uint8_t first[kHeader];
+    memcpy(first, data, kHeader);
+    memset(first + offsetof(minirt_blob_header, checksum), 0, sizeof(uint64_t));
+    const uint64_t rest = minirt_checksum(static_cast<const uint8_t*>(data) + kHeader, size - kHeader);
+    return minirt_detail::mixLane(minirt_checksum(first, kHeader), rest);
 }
 
 minirt_result minirt_validate(const void* data, size_t size, minirt_blob* blob, minirt_validation* validation) {

@@ -1,10 +1,60 @@
+// minirtc: bakes scenes into blobs and looks into them.
+#include <CLI/CLI.hpp>
 #include <iostream>
-#include "kernel.hpp"
-int main() {
-    using namespace minirtc;
-    for (int all = 0; all < 2; ++all) {
-        EffectSet e; if (all) includeAll(e);
-        try { Kernel k = compileKernel("whitted", e); std::cout << k.spirv.size()*4 << " bytes, bindings " << std::hex << k.bindings << std::dec << "\n"; }
-        catch (std::exception& x) { std::cout << x.what() << "\n"; return 1; }
+
+#include "commands.hpp"
+
+namespace {
+
+using namespace minirtc;
+
+void addBake(CLI::App& app, BakeOptions& options) {
+    CLI::App* bake = app.add_subcommand("bake", "Bake a scene file into a blob");
+    bake->footer("Examples:\n  minirtc bake still_life.json -o still_life.mrt\n  minirtc bake still_life.json -o still_life.mrt --explain");
+    bake->add_option("scene", options.scene, "Scene file (.json)")->required();
+    bake->add_option("-o,--output", options.output, "Blob to write (.mrt)")->required();
+    bake->add_flag("--explain", options.explain, "Print each effect, in or out of the kernels, and why");
+    bake->add_flag("--all-effects", options.allEffects, "Compile every effect into the kernels, called for or not");
+    const std::map<std::string, LayoutChoice> layouts = {
+        {"auto", LayoutChoice::automatic}, {"quantised", LayoutChoice::quantised}, {"float", LayoutChoice::floating}};
+    bake->add_option("--layout", options.layout, "Boxes of the hierarchy: auto, quantised or float")->transform(CLI::CheckedTransformer(layouts));
+    bake->add_option("--threads", options.threads, "Threads (default: all cores); the blob does not depend on it");
+    bake->add_option("--save-glsl", options.saveGlslDir, "Folder for the kernels' GLSL");
+    bake->add_option("--stats", options.statsFile, "Write figures as JSON");
+    bake->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+}
+
+void addInspect(CLI::App& app, InspectOptions& options) {
+    CLI::App* inspect = app.add_subcommand("inspect", "Show what a blob holds");
+    inspect->footer("Example:\n  minirtc inspect still_life.mrt --json");
+    inspect->add_option("blob", options.blob, "Blob (.mrt)")->required();
+    inspect->add_flag("--json", options.json, "As JSON");
+    inspect->add_flag("--spirv", options.spirv, "Disassemble the kernels");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("minirtc bakes scenes into blobs that minirt.h renders on any Vulkan device", "minirtc");
+    app.require_subcommand(1);
+    BakeOptions bakeOptions;
+    InspectOptions inspectOptions;
+    std::string blob;
+    addBake(app, bakeOptions);
+    addInspect(app, inspectOptions);
+    CLI::App* validate = app.add_subcommand("validate", "Check a blob completely");
+    validate->footer("Example:\n  minirtc validate still_life.mrt");
+    validate->add_option("blob", blob, "Blob (.mrt)")->required();
+    CLI::App* devices = app.add_subcommand("devices", "List the Vulkan devices, best first");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        if (app.got_subcommand("bake")) return bake(bakeOptions);
+        if (app.got_subcommand("inspect")) return inspect(inspectOptions);
+        if (app.got_subcommand(validate)) return validateBlob(blob);
+        if (app.got_subcommand(devices)) return listDevices();
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << "\n";
+        return 1;
     }
+    return 1;
 }

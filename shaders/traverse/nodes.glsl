@@ -17,7 +17,7 @@ ChildBoxes fetchNode(uint node) {
     uvec4 b = texelFetch(nodeRows, row + 1);
     uvec4 c = texelFetch(nodeRows, row + 2);
     uvec4 d = texelFetch(nodeRows, row + 3);
-    return ChildBoxes(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz), a.w, b.w);
+    return ChildBoxes(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz), a.w, c.w);
 }
 
 #else

@@ -29,7 +29,19 @@ struct TriangleHit {
     real b2;
 };
 
-/// Intersects the line of the ray with the triangle v0 v1 v2, for hits with 0 < t < tMax. Two triangles that share an edge leave no gap between
+/// Bound of the error of a hit's t. Hits nearer than it may lie behind the origin (pbrt-v4 section 6.8.7).
+/// `a`, `b`, `c`: sheared vertices; `greatestEdge`: of the edge functions, without sign.
+real triangleErrorOfT(vec3 a, vec3 b, vec3 c, real greatestEdge, real inverseDeterminant) {
+    real x = max(abs(a.x), max(abs(b.x), abs(c.x)));
+    real y = max(abs(a.y), max(abs(b.y), abs(c.y)));
+    real z = max(abs(a.z), max(abs(b.z), abs(c.z)));
+    real errorX = errorGamma(5) * (x + z);
+    real errorY = errorGamma(5) * (y + z);
+    real errorEdge = real(2) * (errorGamma(2) * x * y + errorY * x + errorX * y);
+    return real(3) * z * (real(2) * errorGamma(3) * greatestEdge + errorEdge) * abs(inverseDeterminant);
+}
+
+/// Intersects the line of the ray with the triangle v0 v1 v2, for hits with 0 < t < tMax, t beyond its own error. Two triangles that share an edge leave no gap between
 /// them: the edge functions are evaluated alike on both sides, without contraction. A line in the triangle's plane misses.
 TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, real tMax) {
     vec3 a = permute(v0 - origin, shear.axis);
@@ -47,11 +59,15 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
     real determinant = e0 + e1 + e2;
     real inverse = real(1) / determinant;
     TriangleHit hit;
-    hit.t = (e0 * a.z + e1 * b.z + e2 * c.z) * shear.scale.z * inverse;
+    real az = a.z * shear.scale.z;
+    real bz = b.z * shear.scale.z;
+    real cz = c.z * shear.scale.z;
+    hit.t = (e0 * az + e1 * bz + e2 * cz) * inverse;
     hit.b1 = e1 * inverse;
     hit.b2 = e2 * inverse;
     real least = min(e0, min(e1, e2));
     real greatest = max(e0, max(e1, e2));
-    hit.hit = (least >= real(0) || greatest <= real(0)) && determinant != real(0) && hit.t > real(0) && hit.t < tMax;
+    real error = triangleErrorOfT(vec3(ax, ay, az), vec3(bx, by, bz), vec3(cx, cy, cz), max(greatest, -least), inverse);
+    hit.hit = (least >= real(0) || greatest <= real(0)) && determinant != real(0) && hit.t > error && hit.t < tMax;
     return hit;
 }

@@ -1,0 +1,76 @@
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+
+namespace minirtc {
+namespace {
+
+double nowMs() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+void printEffects(const EffectSet& effects) {
+    for (size_t i = 0; i < kEffectCount; ++i) {
+        const EffectChoice& choice = effects.choices[i];
+        std::cout << (choice.included ? "in   " : "out  ") << effectInfo(static_cast<Effect>(i)).name << ": " << choice.reason << "\n";
+    }
+}
+
+void saveGlsl(const std::string& dir, const std::vector<Kernel>& kernels) {
+    std::filesystem::create_directories(dir);
+    for (const Kernel& kernel : kernels) writeFile(std::filesystem::path(dir) / (kernel.name + ".comp"), kernel.glsl.data(), kernel.glsl.size());
+}
+
+void writeStats(const std::string& path, const Geometry& geometry, const Bvh& bvh, const EffectSet& effects, const std::vector<Kernel>& kernels,
+                size_t blobBytes, double totalMs) {
+    nlohmann::ordered_json json;
+    json["triangles"] = geometry.primitives.size();
+    json["degenerate_triangles"] = geometry.degenerateTriangles;
+    json["bvh"] = {{"nodes", bvh.nodes.size()}, {"leaves", bvh.leaves}, {"max_depth", bvh.depth}, {"sah_cost", bvh.sahCost}, {"build_ms", bvh.buildMs}};
+    for (size_t i = 0; i < kEffectCount; ++i) {
+        json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included}, {"reason", effects.choices[i].reason}};
+    }
+    size_t spirvBytes = 0;
+    for (const Kernel& kernel : kernels) spirvBytes += kernel.spirv.size() * sizeof(uint32_t);
+    json["spirv_bytes"] = spirvBytes;
+    json["blob_bytes"] = blobBytes;
+    json["total_ms"] = totalMs;
+    const std::string text = json.dump(2) + "\n";
+    writeFile(path, text.data(), text.size());
+}
+
+std::string megabytes(size_t bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f MB", static_cast<double>(bytes) * 1e-6);
+    return text;
+}
+
+}  // namespace
+
+int bake(const BakeOptions& options) {
+    const double start = nowMs();
+    Diagnostics diagnostics;
+    const Scene scene = loadScene(options.scene, diagnostics);
+    const Geometry geometry = flatten(scene, diagnostics);
+    const Bvh bvh = buildBvh(geometry, options.threads);
+    const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
+    EffectSet effects = analyseEffects(scene, geometry, nodes.layout == MINIRT_NODES_FLOAT);
+    if (options.allEffects) includeAll(effects);
+    const std::vector<Kernel> kernels = {compileKernel("whitted", effects)};
+    const std::vector<uint8_t> blob = assembleBlob(scene, geometry, bvh, nodes, effects, kernels);
+
+    for (const std::string& warning : diagnostics.warnings) std::cerr << warning << "\n";
+    if (options.explain) printEffects(effects);
+    if (!options.saveGlslDir.empty()) saveGlsl(options.saveGlslDir, kernels);
+    writeFile(options.output, blob.data(), blob.size());
+    const double totalMs = nowMs() - start;
+    if (!options.statsFile.empty()) writeStats(options.statsFile, geometry, bvh, effects, kernels, blob.size(), totalMs);
+    if (!options.quiet) {
+        std::cout << options.output << ": " << geometry.primitives.size() << " primitives, " << megabytes(blob.size()) << ", "
+                  << static_cast<int>(totalMs) << " ms\n";
+    }
+    return 0;
+}
+
+}  // namespace minirtc

@@ -1,0 +1,270 @@
+#include "blob.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <nlohmann/json.hpp>
+
+namespace minirtc {
+namespace {
+
+/// Rays whose throughput falls below this in every channel end: less than half a step of an 8-bit picture.
+constexpr float kThroughputCutoff = 1.0f / 512.0f;
+
+constexpr float kLargestHalf = 65504.0f;
+
+minirt_vec4 vec4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
+
+float asFloat(uint32_t bits) {
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/// Which images the blob holds, and where: images that no included effect reads stay out.
+struct ImagePlan {
+    std::vector<uint32_t> placeOf;  // scene image -> blob image or kNone
+    std::vector<uint32_t> chosen;   // blob image -> scene image
+    std::vector<bool> repeats;
+
+    void choose(uint32_t image, bool repeatsVertically) {
+        if (image == kNone || placeOf[image] != kNone) return;
+        placeOf[image] = static_cast<uint32_t>(chosen.size());
+        chosen.push_back(image);
+        repeats.push_back(repeatsVertically);
+    }
+    uint32_t place(uint32_t image) const { return image == kNone ? kNone : placeOf[image]; }
+};
+
+ImagePlan planImages(const Scene& scene, const EffectSet& effects) {
+    ImagePlan plan;
+    plan.placeOf.assign(scene.images.size(), kNone);
+    if (effects.has(Effect::backgroundImage)) plan.choose(scene.background.image, false);
+    if (!effects.has(Effect::textures)) return plan;
+    for (const Material& material : scene.materials) plan.choose(material.diffuseTexture, true);
+    return plan;
+}
+
+/// Appends the image's texels as half floats; values beyond their range share a factor.
+minirt_image encodeImage(const Image& image, bool repeats, std::vector<uint16_t>& texels) {
+    float largest = 0;
+    for (const glm::vec4& texel : image.texels) largest = std::max({largest, texel.x, texel.y, texel.z});
+    const float scale = largest > kLargestHalf ? largest / kLargestHalf : 1.0f;
+    const auto first = static_cast<uint32_t>(texels.size() / 4);
+    texels.reserve(texels.size() + image.texels.size() * 4);
+    for (const glm::vec4& texel : image.texels) {
+        for (int k = 0; k < 4; ++k) texels.push_back(glm::packHalf1x16(k < 3 ? texel[k] / scale : texel[k]));
+    }
+    return {{image.width, image.height, first, repeats ? MINIRT_IMAGE_REPEAT_V : 0u}, {scale, 0, 0, 0}};
+}
+
+/// The part of `origin` that a pattern with cells of `scale` can see.
+glm::vec3 checkerOffset(const glm::dvec3& origin, double scale) { return glm::vec3(origin - 2.0 * scale * glm::floor(origin / (2.0 * scale))); }
+
+minirt_material encodeMaterial(const Material& m, const Geometry& geometry, const ImagePlan& images) {
+    minirt_material out = {};
+    out.diffuse = vec4(m.diffuse, m.shininess);
+    out.specular = vec4(m.specular, m.ior);
+    out.reflect = vec4(m.reflect);
+    out.transmit = vec4(m.transmit);
+    out.emission = vec4(m.emission);
+    out.checker = vec4(checkerOffset(geometry.origin, m.checkerScale), m.checkerScale);
+    out.options = {(m.fresnel ? MINIRT_MATERIAL_FRESNEL : 0u) | (m.checker ? MINIRT_MATERIAL_CHECKER : 0u), images.place(m.diffuseTexture), m.checkerA,
+                   m.checkerB};
+    return out;
+}
+
+minirt_light encodeLight(const Light& light, const Geometry& geometry) {
+    minirt_light out = {};
+    out.intensity = vec4(light.intensity);
+    if (light.type == LightType::directional) {
+        out.position = vec4(glm::vec3(-glm::normalize(light.direction)));
+        out.options.x = MINIRT_LIGHT_DIRECTIONAL;
+    } else {
+        out.position = vec4(glm::vec3(light.position - geometry.origin));
+        out.options.x = light.inverseSquare ? MINIRT_LIGHT_INVERSE_SQUARE : 0u;
+    }
+    return out;
+}
+
+std::vector<minirt_vec4> encodePrimitives(const Geometry& geometry, const Bvh& bvh, bool withCorners) {
+    std::vector<minirt_vec4> rows;
+    rows.reserve(bvh.order.size() * 3);
+    for (uint32_t index : bvh.order) {
+        const Primitive& primitive = geometry.primitives[index];
+        rows.push_back(vec4(primitive.p[0], asFloat(primitive.material | (primitive.isSphere ? MINIRT_PRIMITIVE_SPHERE : 0u))));
+        rows.push_back(vec4(primitive.p[1], asFloat(primitive.object)));
+        rows.push_back(vec4(primitive.p[2], asFloat(withCorners ? primitive.corners : kNone)));
+    }
+    return rows;
+}
+
+minirt_scene_rows encodeRows(const Scene& scene, const EncodedNodes& nodes, const ImagePlan& images) {
+    minirt_scene_rows rows = {};
+    rows.gridOrigin = vec4(nodes.gridOrigin);
+    rows.gridScale = vec4(nodes.gridScale);
+    rows.gridPlanes = vec4(nodes.gridPlanes);
+    const bool image = scene.background.image != kNone;
+    rows.background = vec4(image ? glm::vec3(scene.background.strength) : scene.background.color * scene.background.strength,
+                           scene.background.rotation / 360.0f);
+    rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.place(scene.background.image), 0, 0};
+    return rows;
+}
+
+void copy(double (&to)[3], const glm::dvec3& from) { std::copy(&from.x, &from.x + 3, to); }
+
+minirt_scene_desc encodeScene(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes) {
+    minirt_scene_desc desc = {};
+    copy(desc.origin, geometry.origin);
+    copy(desc.bounds_min, geometry.boundsMin);
+    copy(desc.bounds_max, geometry.boundsMax);
+    copy(desc.camera.position, scene.camera.position);
+    copy(desc.camera.target, scene.camera.target);
+    copy(desc.camera.up, scene.camera.up);
+    desc.camera.vfov = scene.camera.vfov;
+    desc.width = scene.render.width;
+    desc.height = scene.render.height;
+    desc.samples = scene.render.spp;
+    desc.max_depth = scene.render.maxDepth;
+    desc.integrator = static_cast<uint32_t>(scene.render.integrator) + MINIRT_INTEGRATOR_WHITTED;
+    desc.node_layout = nodes.layout;
+    desc.bvh_depth = bvh.depth;
+    desc.throughput_cutoff = kThroughputCutoff;
+    return desc;
+}
+
+std::string explain(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes, const EffectSet& effects) {
+    nlohmann::ordered_json json;
+    for (size_t i = 0; i < kEffectCount; ++i) {
+        json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included}, {"reason", effects.choices[i].reason}};
+    }
+    json["objects"] = geometry.objectNames;
+    for (const Material& material : scene.materials) json["materials"].push_back(material.name);
+    json["bvh"] = {{"nodes", bvh.nodes.size()}, {"leaves", bvh.leaves}, {"max_depth", bvh.depth}, {"sah_cost", bvh.sahCost}, {"encoded_sah_cost", nodes.sahCost}};
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Collects sections, then lays them out.
+class BlobWriter {
+public:
+    void add(const char* tag, const void* data, size_t size) {
+        if (size == 0) return;
+        const auto* bytes = static_cast<const uint8_t*>(data);
+        sections_.push_back({tag, std::vector<uint8_t>(bytes, bytes + size)});
+    }
+    template <typename T>
+    void add(const char* tag, const std::vector<T>& items) {
+        add(tag, items.data(), items.size() * sizeof(T));
+    }
+
+    std::vector<uint8_t> finish() const {
+        const uint64_t headerSize = align(sizeof(minirt_blob_header) + sections_.size() * sizeof(minirt_blob_section));
+        uint64_t size = headerSize;
+        for (const Section& section : sections_) size += align(section.bytes.size());
+        std::vector<uint8_t> blob(size, 0);
+        uint64_t at = headerSize;
+        for (size_t i = 0; i < sections_.size(); ++i) {
+            const Section& section = sections_[i];
+            std::memcpy(blob.data() + at, section.bytes.data(), section.bytes.size());
+            minirt_blob_section entry = {};
+            std::memset(entry.tag, ' ', sizeof entry.tag);
+            std::memcpy(entry.tag, section.tag.data(), section.tag.size());
+            entry.offset = at;
+            entry.size = section.bytes.size();
+            entry.checksum = minirt_checksum(blob.data() + at, align(section.bytes.size()));
+            std::memcpy(blob.data() + sizeof(minirt_blob_header) + i * sizeof entry, &entry, sizeof entry);
+            at += align(section.bytes.size());
+        }
+        writeHeader(blob, headerSize);
+        return blob;
+    }
+
+private:
+    struct Section {
+        std::string tag;
+        std::vector<uint8_t> bytes;
+    };
+
+    static uint64_t align(uint64_t size) { return (size + MINIRT_SECTION_ALIGNMENT - 1) / MINIRT_SECTION_ALIGNMENT * MINIRT_SECTION_ALIGNMENT; }
+
+    void writeHeader(std::vector<uint8_t>& blob, uint64_t headerSize) const {
+        minirt_blob_header header = {};
+        std::memcpy(header.signature, MINIRT_SIGNATURE, MINIRT_SIGNATURE_SIZE);
+        header.version = MINIRT_FORMAT_VERSION;
+        header.endian = MINIRT_ENDIAN_MARK;
+        header.section_count = static_cast<uint32_t>(sections_.size());
+        header.total_size = blob.size();
+        std::memcpy(blob.data(), &header, sizeof header);
+        header.checksum = minirt_header_checksum(blob.data(), headerSize);
+        std::memcpy(blob.data(), &header, sizeof header);
+    }
+
+    std::vector<Section> sections_;
+};
+
+void addKernels(BlobWriter& writer, const std::vector<Kernel>& kernels) {
+    std::vector<minirt_kernel> entries;
+    std::vector<uint32_t> words;
+    for (const Kernel& kernel : kernels) {
+        minirt_kernel entry = {};
+        kernel.name.copy(entry.name, sizeof entry.name - 1);
+        entry.spirv_offset = words.size() * sizeof(uint32_t);
+        entry.spirv_size = kernel.spirv.size() * sizeof(uint32_t);
+        entry.bindings = kernel.bindings;
+        entry.waits = kernel.waits ? 1 : 0;
+        entries.push_back(entry);
+        words.insert(words.end(), kernel.spirv.begin(), kernel.spirv.end());
+    }
+    writer.add("KERNELS", entries);
+    writer.add("SPIRV", words);
+}
+
+void addImages(BlobWriter& writer, const Scene& scene, const ImagePlan& plan) {
+    std::vector<minirt_image> images;
+    std::vector<uint16_t> texels;
+    for (size_t i = 0; i < plan.chosen.size(); ++i) images.push_back(encodeImage(scene.images[plan.chosen[i]], plan.repeats[i], texels));
+    writer.add("IMAGES", images);
+    writer.add("TEXELS", texels);
+}
+
+void addCorners(BlobWriter& writer, const Geometry& geometry, const EffectSet& effects) {
+    std::vector<float> normals;
+    std::vector<float> uvs;
+    for (const CornerAttributes& corners : geometry.corners) {
+        for (const glm::vec3& n : corners.normals) normals.insert(normals.end(), {n.x, n.y, n.z});
+        for (const glm::vec2& uv : corners.uvs) uvs.insert(uvs.end(), {uv.x, uv.y});
+    }
+    if (effects.has(Effect::smoothNormals)) writer.add("NORMALS", normals);
+    if (effects.has(Effect::textures)) writer.add("UVS", uvs);
+}
+
+}  // namespace
+
+std::vector<uint8_t> assembleBlob(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes, const EffectSet& effects,
+                                  const std::vector<Kernel>& kernels) {
+    const ImagePlan images = planImages(scene, effects);
+    std::vector<minirt_material> materials;
+    for (const Material& material : scene.materials) materials.push_back(encodeMaterial(material, geometry, images));
+    std::vector<minirt_light> lights;
+    for (const Light& light : scene.lights) lights.push_back(encodeLight(light, geometry));
+    const bool withCorners = !geometry.corners.empty() && (effects.has(Effect::smoothNormals) || effects.has(Effect::textures));
+    const minirt_scene_desc desc = encodeScene(scene, geometry, bvh, nodes);
+    const minirt_scene_rows rows = encodeRows(scene, nodes, images);
+
+    BlobWriter writer;
+    writer.add("SCENE", &desc, sizeof desc);
+    writer.add("ROWS", &rows, sizeof rows);
+    writer.add("NODES", nodes.words);
+    writer.add("PRIMS", encodePrimitives(geometry, bvh, withCorners));
+    addCorners(writer, geometry, effects);
+    writer.add("MATERIAL", materials);
+    writer.add("LIGHTS", lights);
+    addImages(writer, scene, images);
+    addKernels(writer, kernels);
+    const std::string text = explain(scene, geometry, bvh, nodes, effects);
+    writer.add("EXPLAIN", text.data(), text.size());
+    return writer.finish();
+}
+
+}  // namespace minirtc

@@ -1,0 +1,22 @@
+// Linear pictures to files.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// `rgba`: width * height * 4 floats, linear radiance, top row first.
+struct Picture {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<float> rgba;
+};
+
+/// True for the endings that writePicture knows: .png .exr .hdr .pfm.
+bool isPictureName(const std::string& path);
+
+/// .png: sRGB, clamped, 8 bits. .exr (float) and .pfm: the floats bit for bit. .hdr: RGBE. The file appears whole or not at all.
+/// Returns "" or what went wrong.
+std::string writePicture(const std::string& path, const Picture& picture);
+
+/// The sRGB byte of a linear value; NaN is 0.
+uint8_t srgbByte(float linear);

@@ -1,0 +1,27 @@
+/* The shortest whole program: renders a blob and prints the colour of the middle pixel. */
+#include <minirt.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+int main(int argc, char** argv) {
+    const uint32_t width = 320, height = 240;
+    minirt_context* ctx = NULL;
+    minirt_scene* scene = NULL;
+    if (argc != 2) {
+        fprintf(stderr, "usage: minirt-hello SCENE.mrt\n");
+        return 2;
+    }
+    float* rgba = malloc(width * height * 4 * sizeof *rgba);
+    if (!rgba) return 1;
+    minirt_result r = minirt_create(&(minirt_context_desc){0}, &ctx);
+    if (!r) r = minirt_load_file(ctx, argv[1], &scene);
+    if (!r) r = minirt_render(scene, &(minirt_render_desc){.width = width, .height = height}, rgba);
+    const float* middle = rgba + (height / 2 * width + width / 2) * 4;
+    if (r)
+        fprintf(stderr, "%s: %s\n", minirt_result_string(r), minirt_last_message(ctx));
+    else
+        printf("%g %g %g\n", middle[0], middle[1], middle[2]);
+    minirt_destroy(ctx);
+    free(rgba);
+    return r != 0;
+}

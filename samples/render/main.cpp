@@ -1,0 +1,194 @@
+// minirt-render: a blob to a picture file.
+#include <minirt.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "../common/picture_file.hpp"
+
+namespace {
+
+struct Options {
+    std::string blob;
+    std::string output;
+    std::string size;
+    std::string samples;  // A:B
+    std::string region;   // X,Y,WxH
+    std::string device;
+    std::string stats;
+    uint32_t spp = 0;
+    int maxDepth = -1;
+    minirt_integrator integrator = MINIRT_INTEGRATOR_SCENE;
+    double timeBudget = 0;  // seconds, 0: none
+    bool validation = false;
+};
+
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+void addOptions(CLI::App& app, Options& o) {
+    app.footer("Examples:\n  minirt-render still_life.mrt -o still_life.png\n  minirt-render still_life.mrt -o still_life.exr --size 640x480 --spp 16");
+    app.add_option("blob", o.blob, "Blob that minirtc baked (.mrt)")->required();
+    app.add_option("-o,--output", o.output, "Picture to write (.png .exr .hdr .pfm)")->required();
+    app.add_option("--size", o.size, "WIDTHxHEIGHT (default: the scene's)");
+    app.add_option("--spp", o.spp, "Samples a pixel (default: the scene's)")->check(CLI::Range(1u, 1u << 24));
+    app.add_option("--max-depth", o.maxDepth, "Bounces after the camera ray (default: the scene's)")->check(CLI::Range(0, 255));
+    const std::map<std::string, minirt_integrator> integrators = {
+        {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
+    app.add_option("--integrator", o.integrator, "whitted, path or wavefront (default: the scene's)")->transform(CLI::CheckedTransformer(integrators));
+    app.add_option("--samples", o.samples, "Render samples A up to, not including, B: A:B");
+    app.add_option("--region", o.region, "Render only this part: X,Y,WIDTHxHEIGHT");
+    app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
+    app.add_option("--time-budget", o.timeBudget, "Stop after this many seconds with the samples that are there")->check(CLI::PositiveNumber);
+    app.add_option("--stats", o.stats, "Write figures as JSON");
+    app.add_flag("--validation", o.validation, "Check every Vulkan call with the Khronos validation layer");
+}
+
+void checkOption(bool good, const char* what) {
+    if (!good) throw UsageError(what);
+}
+
+minirt_render_desc renderDesc(const Options& o) {
+    minirt_render_desc desc = {};
+    int used = 0;
+    const auto whole = [&](const std::string& text) { return used == static_cast<int>(text.size()); };
+    if (!o.size.empty())
+        checkOption(std::sscanf(o.size.c_str(), "%ux%u%n", &desc.width, &desc.height, &used) == 2 && whole(o.size), "--size: give WIDTHxHEIGHT, such as 640x480");
+    desc.samples = o.spp;
+    if (!o.samples.empty()) {
+        uint32_t end = 0;
+        checkOption(std::sscanf(o.samples.c_str(), "%u:%u%n", &desc.first_sample, &end, &used) == 2 && whole(o.samples) && end > desc.first_sample,
+                    "--samples: give A:B with A < B, such as 0:16");
+        desc.samples = end - desc.first_sample;
+    }
+    minirt_region& r = desc.region;
+    if (!o.region.empty())
+        checkOption(std::sscanf(o.region.c_str(), "%u,%u,%ux%u%n", &r.x, &r.y, &r.width, &r.height, &used) == 4 && whole(o.region),
+                    "--region: give X,Y,WIDTHxHEIGHT, such as 0,0,64x64");
+    desc.max_depth = static_cast<uint32_t>(o.maxDepth + 1);
+    desc.integrator = o.integrator;
+    return desc;
+}
+
+/// On a terminal, a bar for what takes over a second.
+class ProgressBar {
+public:
+    explicit ProgressBar(double secondsAllowed) : allowed_(secondsAllowed) {}
+
+    static int update(void* self, const minirt_progress* progress) { return static_cast<ProgressBar*>(self)->show(*progress); }
+
+    void clear() const {
+        if (shown_) std::fprintf(stderr, "\r%60s\r", "");
+    }
+
+private:
+    int show(const minirt_progress& progress) {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        if (terminal_ && seconds > 1.0) {
+            constexpr int kWidth = 40;
+            const int filled = static_cast<int>(progress.fraction * kWidth);
+            std::fprintf(stderr, "\r[%-*.*s] %3d %%", kWidth, filled, "########################################", static_cast<int>(progress.fraction * 100));
+            shown_ = true;
+        }
+        return allowed_ > 0 && seconds > allowed_ && progress.samples_done > 0;
+    }
+
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double allowed_;
+    bool terminal_ = isatty(STDERR_FILENO);
+    bool shown_ = false;
+};
+
+void writeStats(const std::string& path, const minirt_device_info& device, const minirt_stats& s) {
+    nlohmann::ordered_json json;
+    json["device"] = device.name;
+    json["driver"] = device.driver;
+    json["width"] = s.width;
+    json["height"] = s.height;
+    json["spp"] = s.samples;
+    json["wall_ms"] = s.wall_ms;
+    json["gpu_ms"] = s.gpu_ms;
+    json["pipeline_ms"] = s.pipeline_ms;
+    json["load_ms"] = s.load_ms;
+    json["upload_ms"] = s.upload_ms;
+    json["rays"] = {{"primary", s.primary_rays}, {"shadow", s.shadow_rays}, {"secondary", s.secondary_rays}};
+    json["mrays_per_s"] = s.gpu_ms > 0 ? static_cast<double>(s.primary_rays + s.shadow_rays + s.secondary_rays) / s.gpu_ms * 1e-3 : 0.0;
+    json["dispatches"] = {{"all", s.dispatches}, {"resumed", s.resumed_dispatches}};
+    json["counters"] = {{"nan_pixels", s.nan_pixels}, {"volume_overflow", s.volume_overflow}, {"segment_overflow", s.segment_overflow},
+                        {"traversal_cap", s.traversal_cap}};
+    std::ofstream file(path);
+    file << json.dump(2) << "\n";
+    if (!file.flush()) throw UsageError(path + ": cannot be written");
+}
+
+void logMessage(void*, minirt_log_level level, const char* message) {
+    if (level != MINIRT_LOG_ERROR) std::fprintf(stderr, "%s\n", message);
+}
+
+/// Owns the context with all that belongs to it.
+struct Context {
+    minirt_context* handle = nullptr;
+    ~Context() { minirt_destroy(handle); }
+};
+
+void require(minirt_result result, const Context& context, const std::string& where) {
+    if (result == MINIRT_OK) return;
+    std::string message = where.empty() ? "" : where + ": ";
+    message += minirt_result_string(result);
+    const char* detail = minirt_last_message(context.handle);
+    throw std::runtime_error(*detail ? message + ": " + detail : message);
+}
+
+void render(const Options& options) {
+    checkOption(isPictureName(options.output), "--output: use an ending of .png, .exr, .hdr or .pfm");
+    minirt_render_desc desc = renderDesc(options);
+    minirt_context_desc contextDesc = {};
+    contextDesc.device_name = options.device.c_str();
+    contextDesc.validation = options.validation ? 1 : 0;
+    contextDesc.log = logMessage;
+    Context context;
+    require(minirt_create(&contextDesc, &context.handle), context, "");
+    minirt_scene* scene = nullptr;
+    require(minirt_load_file(context.handle, options.blob.c_str(), &scene), context, options.blob);
+    minirt_scene_desc sceneDesc;
+    minirt_get_scene_desc(scene, &sceneDesc);
+    Picture picture;
+    picture.width = desc.width ? desc.width : sceneDesc.width;
+    picture.height = desc.height ? desc.height : sceneDesc.height;
+    if (picture.width > 16384 || picture.height > 16384) throw UsageError("--size: at most 16384x16384");
+    picture.rgba.resize(size_t{picture.width} * picture.height * 4);
+    ProgressBar bar(options.timeBudget);
+    minirt_stats stats = {};
+    desc.progress = ProgressBar::update;
+    desc.progress_user = &bar;
+    desc.stats = &stats;
+    const minirt_result result = minirt_render(scene, &desc, picture.rgba.data());
+    bar.clear();
+    if (result != MINIRT_CANCELLED) require(result, context, options.blob);  // cancelled: the time budget is spent, the samples are fine
+    const std::string problem = writePicture(options.output, picture);
+    if (!problem.empty()) throw std::runtime_error(problem);
+    minirt_device_info device;
+    minirt_get_device_info(context.handle, &device);
+    if (!options.stats.empty()) writeStats(options.stats, device, stats);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("minirt-render renders a baked scene to a picture file", "minirt-render");
+    Options options;
+    addOptions(app, options);
+    CLI11_PARSE(app, argc, argv);
+    try {
+        render(options);
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << "\n";
+        return 1;
+    }
+    return 0;
+}
