@@ -47,27 +47,28 @@ void requireType(const SceneFile& file, const JsonValue& value, const std::strin
     if (value.type != type) throw Error(file.at(value), name + " is " + describe(value.type), "give " + describe(type));
 }
 
-double readNumber(const SceneFile& file, const JsonValue& value, const std::string& name, const Limits& limits) {
+double readNumber(const SceneFile& file, const JsonValue& value, const std::string& key, const Limits& limits) {
     if (value.type != JsonType::number)
-        throw Error(file.at(value), name + " is " + describe(value.type), "give " + describe(limits));
+        throw Error(file.at(value), inQuotes(key) + " is " + describe(value.type), "give " + describe(limits));
     const double x = value.number;
-    if (std::fabs(x) > FLT_MAX) throw Error(file.at(value), name + " is " + toText(x), "single precision ends at 3.4e38");
+    if (std::fabs(x) > FLT_MAX)
+        throw Error(file.at(value), inQuotes(key) + " is " + toText(x), "single precision ends at 3.4e38");
     // A denormal counts as zero: devices may flush it.
     const double smallest = limits.min == 0 && !limits.minIncluded ? FLT_MIN : limits.min;
     const bool aboveMin = x > smallest || (x == smallest && (limits.minIncluded || smallest == FLT_MIN));
     const bool belowMax = x < limits.max || (x == limits.max && limits.maxIncluded);
-    if (!aboveMin || !belowMax) throw Error(file.at(value), name + " is " + toText(x), "give " + describe(limits));
+    if (!aboveMin || !belowMax) throw Error(file.at(value), inQuotes(key) + " is " + toText(x), "give " + describe(limits));
     return x;
 }
 
-glm::dvec3 readVector(const SceneFile& file, const JsonValue& value, const std::string& name, const Limits& limits) {
+glm::dvec3 readVector(const SceneFile& file, const JsonValue& value, const std::string& key, const Limits& limits) {
     if (value.type != JsonType::array)
-        throw Error(file.at(value), name + " is " + describe(value.type), "give an array of 3 numbers");
+        throw Error(file.at(value), inQuotes(key) + " is " + describe(value.type), "give an array of 3 numbers");
     if (value.items.size() != 3)
-        throw Error(file.at(value), name + " has " + std::to_string(value.items.size()) + " entries",
+        throw Error(file.at(value), inQuotes(key) + " has " + std::to_string(value.items.size()) + " entries",
                     "give an array of 3 numbers");
     glm::dvec3 v(0);
-    for (int i = 0; i < 3; ++i) v[i] = readNumber(file, value.items[i], name + "[" + std::to_string(i) + "]", limits);
+    for (int i = 0; i < 3; ++i) v[i] = readNumber(file, value.items[i], key + "[" + std::to_string(i) + "]", limits);
     return v;
 }
 
@@ -88,7 +89,7 @@ const JsonValue& JsonObject::require(const std::string& key) const {
 
 double JsonObject::number(const std::string& key, double fallback, const Limits& limits) const {
     const JsonValue* found = find(key);
-    return found ? readNumber(file_, *found, "'" + key + "'", limits) : fallback;
+    return found ? readNumber(file_, *found, key, limits) : fallback;
 }
 
 uint32_t JsonObject::integer(const std::string& key, uint32_t fallback, uint32_t min, uint32_t max) const {
@@ -110,12 +111,12 @@ bool JsonObject::boolean(const std::string& key, bool fallback) const {
 
 glm::dvec3 JsonObject::vector(const std::string& key, const glm::dvec3& fallback) const {
     const JsonValue* found = find(key);
-    return found ? readVector(file_, *found, "'" + key + "'") : fallback;
+    return found ? readVector(file_, *found, key) : fallback;
 }
 
 glm::vec3 JsonObject::color(const std::string& key, const glm::vec3& fallback, const Limits& limits) const {
     const JsonValue* found = find(key);
-    return found ? glm::vec3(readVector(file_, *found, "'" + key + "'", limits)) : fallback;
+    return found ? glm::vec3(readVector(file_, *found, key, limits)) : fallback;
 }
 
 const std::string& JsonObject::text(const std::string& key) const {

@@ -67,12 +67,13 @@ private:
     std::string what_;
 };
 
-/// Three numbers [x, y, z]. `name` is for messages.
-glm::dvec3 readVector(const SceneFile& file, const JsonValue& value, const std::string& name, const Limits& limits = kAnyNumber);
-double readNumber(const SceneFile& file, const JsonValue& value, const std::string& name, const Limits& limits = kAnyNumber);
+/// Three numbers [x, y, z]. `key` is for messages.
+glm::dvec3 readVector(const SceneFile& file, const JsonValue& value, const std::string& key, const Limits& limits = kAnyNumber);
+double readNumber(const SceneFile& file, const JsonValue& value, const std::string& key, const Limits& limits = kAnyNumber);
+/// `name` is for messages: "'objects'", "a light".
 void requireType(const SceneFile& file, const JsonValue& value, const std::string& name, JsonType type);
 
-/// "; did you mean 'x'?" or else "; known: a, b, c" without the semicolon: the hint after an unknown word.
+/// The hint after an unknown word: "did you mean 'x'?", or all of `known` where none is near.
 std::string suggest(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace minirtc

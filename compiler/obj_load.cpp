@@ -35,8 +35,9 @@ public:
             line_ = lines.number();
             readLine(lines.line());
         }
+        if (polygons_.empty()) throw Error({path_}, "the mesh has no faces", "an OBJ file needs lines such as 'f 1 2 3'");
         checkIndices();
-        if (mesh_.faces.empty()) throw Error({path_}, "the mesh has no faces", "an OBJ file needs lines such as 'f 1 2 3'");
+        splitPolygons();
     }
 
     // Face::material counts in uses() while reading; kNone before the first usemtl.
@@ -116,12 +117,10 @@ private:
     }
 
     void readFace(std::string_view line) {
-        ring_.clear();
-        for (std::string_view word = takeValue(line); !word.empty(); word = takeValue(line)) ring_.push_back(readCorner(word));
-        if (ring_.size() < 3) fail("the face has " + std::to_string(ring_.size()) + " corners", "a face needs at least 3");
-        split();
-        for (const TriangleIndices& t : triangles_)
-            mesh_.faces.push_back({{ring_[t[0]], ring_[t[1]], ring_[t[2]]}, material_, line_});
+        polygons_.push_back({corners_.size(), material_, line_});
+        for (std::string_view word = takeValue(line); !word.empty(); word = takeValue(line)) corners_.push_back(readCorner(word));
+        const size_t size = corners_.size() - polygons_.back().first;
+        if (size < 3) fail("the face has " + std::to_string(size) + " corners", "a face needs at least 3");
     }
 
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
@@ -156,21 +155,7 @@ private:
         return static_cast<uint32_t>(absolute);
     }
 
-    /// Fills triangles_ with the ring's triangles.
-    void split() {
-        triangles_.clear();
-        if (ring_.size() == 3) return triangles_.push_back({0, 1, 2});
-        polygon_.clear();
-        for (const Corner& corner : ring_) {
-            if (corner.position >= mesh_.positions.size())
-                fail("a face of " + std::to_string(ring_.size()) + " corners uses v " + std::to_string(corner.position + 1) +
-                         ", which is not above it",
-                     "move the v line up or correct the index");
-            polygon_.push_back(mesh_.positions[corner.position]);
-        }
-        if (!triangulate(polygon_, triangles_))
-            fail("the face is concave and has " + std::to_string(ring_.size()) + " corners", "split it into smaller faces");
-    }
+    size_t endOf(size_t polygon) const { return polygon + 1 < polygons_.size() ? polygons_[polygon + 1].first : corners_.size(); }
 
     void checkIndices() {
         const auto check = [&](uint32_t index, size_t count, const char* key) {
@@ -178,15 +163,40 @@ private:
             fail("the " + std::string(key) + " index " + std::to_string(index + 1) + " is out of range",
                  "the file has " + std::to_string(count) + " " + key + " lines");
         };
-        for (const Face& face : mesh_.faces) {
-            line_ = face.line;
-            for (const Corner& corner : face.corners) {
-                check(corner.position, mesh_.positions.size(), "v");
-                check(corner.uv, mesh_.uvs.size(), "vt");
-                check(corner.normal, mesh_.normals.size(), "vn");
+        for (size_t i = 0; i < polygons_.size(); ++i) {
+            line_ = polygons_[i].line;
+            for (size_t c = polygons_[i].first; c < endOf(i); ++c) {
+                check(corners_[c].position, mesh_.positions.size(), "v");
+                check(corners_[c].uv, mesh_.uvs.size(), "vt");
+                check(corners_[c].normal, mesh_.normals.size(), "vn");
             }
         }
     }
+
+    void splitPolygons() {
+        mesh_.faces.reserve(corners_.size() - 2 * polygons_.size());
+        std::vector<glm::dvec3> points;
+        std::vector<TriangleIndices> triangles;
+        for (size_t i = 0; i < polygons_.size(); ++i) {
+            const Polygon& polygon = polygons_[i];
+            const Corner* corners = &corners_[polygon.first];
+            points.clear();
+            triangles.clear();
+            for (size_t c = polygon.first; c < endOf(i); ++c) points.push_back(mesh_.positions[corners_[c].position]);
+            line_ = polygon.line;
+            if (!triangulate(points, triangles))
+                fail("the face is concave and has " + std::to_string(points.size()) + " corners", "split it into smaller faces");
+            for (const TriangleIndices& t : triangles)
+                mesh_.faces.push_back({{corners[t[0]], corners[t[1]], corners[t[2]]}, polygon.material, polygon.line});
+        }
+    }
+
+    /// A face as written; its corners reach to the next one's first.
+    struct Polygon {
+        size_t first;  // in corners_
+        uint32_t material;
+        int line;
+    };
 
     std::string path_;
     Mesh& mesh_;
@@ -195,9 +205,8 @@ private:
     std::vector<MaterialUse> uses_;
     std::unordered_map<std::string, uint32_t> useIndex_;
     std::vector<MaterialLibrary> libraries_;
-    std::vector<Corner> ring_;
-    std::vector<glm::dvec3> polygon_;
-    std::vector<TriangleIndices> triangles_;
+    std::vector<Corner> corners_;
+    std::vector<Polygon> polygons_;
 };
 
 /// The files of a mtllib line: the whole rest as one name where such a file is, else its words, \ before a blank joining them.

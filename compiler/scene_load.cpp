@@ -107,9 +107,9 @@ Transform readTransform(const JsonObject& object, SceneFile& file) {
     Transform transform;
     if (const JsonValue* scale = object.find("scale")) {
         if (scale->type == JsonType::number)
-            transform.scale = glm::dvec3(readNumber(file, *scale, "'scale'"));
+            transform.scale = glm::dvec3(readNumber(file, *scale, "scale"));
         else if (scale->type == JsonType::array)
-            transform.scale = readVector(file, *scale, "'scale'");
+            transform.scale = readVector(file, *scale, "scale");
         else
             object.fail("scale", "'scale' is " + describe(scale->type), "give a number or an array of 3 numbers");
         for (int i = 0; i < 3; ++i)
@@ -207,7 +207,7 @@ Object readObject(SceneFile& file, const JsonValue& value, const Scene& scene, P
     }
     object.location = file.at(value);
     if (const JsonValue* priority = value.find("priority")) {
-        const double number = readNumber(file, *priority, "'priority'", {-1000, 1000});
+        const double number = readNumber(file, *priority, "priority", {-1000, 1000});
         if (number != std::floor(number)) throw Error(file.at(*priority), "'priority' is not whole", "give a whole number");
         if (number != 0 && file.ignoredKeys.insert("priority").second)
             file.diagnostics.warn(file.at(*priority), "'priority' has no effect in this version", "volumes do not nest");

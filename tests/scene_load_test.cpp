@@ -1,0 +1,359 @@
+#include <doctest/doctest.h>
+
+#include "geometry.hpp"
+#include "scene.hpp"
+#include "support.hpp"
+
+using namespace minirtc;
+
+namespace {
+
+/// Loads scene texts from a folder with a small mesh in it.
+class Loader {
+public:
+    Loader() {
+        dir_.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        dir_.write("bad.obj", "v 0 0 x\n");
+        dir_.write("notes.txt", "not an image");
+    }
+
+    Scene load(const std::string& text) { return loadScene(dir_.write("s.json", text), diagnostics); }
+
+    /// The error without the folder's name, or "".
+    std::string error(const std::string& text) {
+        try {
+            load(text);
+        } catch (const Error& error) {
+            return strip(error.what());
+        }
+        return "";
+    }
+
+    std::string strip(std::string message) const {
+        const std::string prefix = dir_.path().string() + "/";
+        for (size_t at = message.find(prefix); at != std::string::npos; at = message.find(prefix))
+            message.erase(at, prefix.size());
+        return message;
+    }
+
+    Diagnostics diagnostics;
+
+private:
+    test::TemporaryDir dir_;
+};
+
+const std::string kBall = R"("materials":{"m":{"model":"phong"}},"objects":[{"sphere":{"radius":1},"material":"m"}])";
+
+/// A scene with one ball and `more` in a line of its own.
+std::string with(const std::string& more) {
+    return "{" + kBall + ",\n" + more + "}";
+}
+
+/// A scene of one ball whose material is `body`, which stands in a line of its own.
+std::string material(const std::string& body) {
+    return "{\"objects\":[{\"sphere\":{},\"material\":\"m\"}],\"materials\":{\"m\":\n" + body + "}}";
+}
+
+/// A scene with one white material and the object `body` in a line of its own.
+std::string object(const std::string& body) {
+    return "{\"materials\":{\"white\":{\"model\":\"phong\"}},\"objects\":[\n" + body + "]}";
+}
+
+struct Bad {
+    std::string scene;
+    std::string message;
+};
+
+void checkAll(const std::vector<Bad>& table) {
+    Loader loader;
+    for (const Bad& bad : table) {
+        CAPTURE(bad.scene);
+        CHECK(loader.error(bad.scene) == bad.message);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a scene without anything but a shape takes every default") {
+    Loader loader;
+    const Scene scene = loader.load("{" + kBall + "} // comments are fine\n");
+    CHECK(scene.objects.size() == 1);
+    CHECK(scene.objects[0].name == "sphere 1");
+    CHECK(scene.objects[0].location.line == 1);
+    CHECK(scene.camera.vfov == 60);
+    CHECK(scene.render.maxDepth == 20);
+    CHECK(scene.render.spp == 1);
+    CHECK(scene.render.width == 1024);
+    CHECK(scene.background.image == kNone);
+    REQUIRE(loader.diagnostics.warnings.size() == 1);
+    CHECK(loader.strip(loader.diagnostics.warnings[0]) ==
+          "s.json: warning: the scene has no light; add 'lights' or a 'background', or the picture stays black");
+}
+
+TEST_CASE("syntax errors name line and column") {
+    checkAll({
+        {"",
+         "s.json:1:1: not valid JSON: syntax error while parsing value - unexpected end of input, expected '[', '{', or a "
+         "literal; "
+         "check commas, quotes and brackets here and just before"},
+        {"{\n \"camera\" 1}",
+         "s.json:2:12: not valid JSON: syntax error while parsing object separator - unexpected number literal, "
+         "expected ':'; check commas, quotes and brackets here and just before"},
+        {"{\"a\":1,\n\n  \"b\\\"\":2,\n  \"a\":3}", "s.json:4:3: the key 'a' is given twice; remove it here or in line 1"},
+        {"{\"camera\":{\"vfov\":\n  1e999}}", "s.json:2:3: the number 1e999 is too large; give a finite number"},
+        {std::string(65, '['), "s.json:1:65: the brackets nest too deeply; a scene needs 6 levels"},
+        {"[1]", "s.json:1:1: the scene is an array; give an object"},
+        {"\xff\xfe{", "s.json: the file is UTF-16; save it as UTF-8 or ASCII"},
+    });
+    Loader loader;
+    CHECK(loader.error("{\"a\":NaN}").substr(0, 26) == "s.json:1:6: not valid JSON");
+}
+
+TEST_CASE("unknown keys name the nearest known key") {
+    checkAll({
+        {with("\"camra\":{}"), "s.json:2:1: the scene has no key 'camra'; did you mean 'camera'?"},
+        {with("\"camera\":{\"fov\":3}"), "s.json:2:11: the camera has no key 'fov'; did you mean 'vfov'?"},
+        {with("\"render\":{\"xyzzyx\":3}"),
+         "s.json:2:11: the render section has no key 'xyzzyx'; known here: integrator, integrators, "
+         "maxDepth, spp, size, shadows, dispersionMode"},
+        {material("{\"model\":\"phong\",\"difuse\":1}"),
+         "s.json:2:18: the material 'm' has no key 'difuse'; did you mean 'diffuse'?"},
+        {object("{\"sphere\":{},\"scale\":2,\"material\":\"white\"}"),
+         "s.json:2:14: a sphere object has no key 'scale'; known here: sphere, material, priority"},
+    });
+}
+
+TEST_CASE("bad cameras backgrounds and render sections are refused") {
+    checkAll({
+        {with("\"camera\":{\"position\":[0,0]}"), "s.json:2:22: 'position' has 2 entries; give an array of 3 numbers"},
+        {with("\"camera\":{\"position\":[0,\"a\",0]}"), "s.json:2:25: 'position[1]' is a string; give a finite number"},
+        {with("\"camera\":{\"position\":[0,0,1e39]}"), "s.json:2:27: 'position[2]' is 1e+39; single precision ends at 3.4e38"},
+        {with("\"camera\":{\"position\":7}"), "s.json:2:22: 'position' is a number; give an array of 3 numbers"},
+        {with("\"camera\":{\"position\":[1,2,3],\"target\":[1,2,3]}"),
+         "s.json:2:39: the camera's position and target are the same point; move one of them"},
+        {with("\"camera\":{\"up\":[0,0,-2]}"),
+         "s.json:2:16: the camera's 'up' is parallel to the view; give another 'up', such as [0, 0, 1]"},
+        {with("\"camera\":{\"up\":[0,0,0]}"), "s.json:2:16: the camera's 'up' has no length; give a direction such as [0, 1, 0]"},
+        {with("\"camera\":{\"vfov\":0}"), "s.json:2:18: 'vfov' is 0; give a number over 0 and under 180"},
+        {with("\"camera\":{\"vfov\":180}"), "s.json:2:18: 'vfov' is 180; give a number over 0 and under 180"},
+        {with("\"camera\":{\"vfov\":true}"), "s.json:2:18: 'vfov' is true or false; give a number over 0 and under 180"},
+        {with("\"camera\":{\"aperture\":0.1}"), "s.json:2:22: an aperture over 0 is not in this version; set it to 0"},
+        {with("\"background\":{\"image\":\"no.png\"}"),
+         "s.json:2:23: there is no file 'no.png'; paths are relative to the scene file's folder"},
+        {with("\"background\":{\"image\":\".\"}"), "s.json:2:23: '.' is a folder; paths are relative to the scene file's folder"},
+        {with("\"background\":{\"image\":\"notes.txt\"}"),
+         "notes.txt: the image cannot be read (unknown image type); give a .jpg, .png, .bmp, .tga, .hdr or .exr file"},
+        {with("\"background\":{\"color\":[0,0,-1]}"), "s.json:2:28: 'color[2]' is -1; give a number at least 0"},
+        {with("\"background\":{\"color\":[0,0,1],\"image\":\"a\"}"),
+         "s.json:2:23: the background has both 'image' and 'color'; keep one of them"},
+        {with("\"render\":{\"size\":[0,4]}"),
+         "s.json:2:19: this is no size of a picture; give [width, height] in whole pixels from 1 to 16384"},
+        {with("\"render\":{\"size\":[4,16385]}"),
+         "s.json:2:21: this is no size of a picture; give [width, height] in whole pixels from 1 to 16384"},
+        {with("\"render\":{\"spp\":0}"), "s.json:2:17: 'spp' is 0; give a whole number from 1 to 65536"},
+        {with("\"render\":{\"spp\":1.5}"), "s.json:2:17: 'spp' is 1.5; give a whole number from 1 to 65536"},
+        {with("\"render\":{\"maxDepth\":256}"), "s.json:2:22: 'maxDepth' is 256; give a whole number from 0 to 255"},
+        {with("\"render\":{\"integrator\":\"path\"}"), "s.json:2:24: 'integrator': 'path' is not in this version; use whitted"},
+        {with("\"render\":{\"integrator\":\"whited\"}"), "s.json:2:24: 'integrator' is 'whited'; did you mean 'whitted'?"},
+        {with("\"nesting\":\"orderd\""), "s.json:2:11: 'nesting' is 'orderd'; did you mean 'ordered'?"},
+    });
+}
+
+TEST_CASE("bad lights are refused") {
+    checkAll({
+        {with("\"lights\":[{}]"), "s.json:2:11: a light has no 'type'; add it"},
+        {with("\"lights\":[{\"type\":\"spot\"}]"), "s.json:2:19: 'type': 'spot' is not in this version; use point, directional"},
+        {with("\"lights\":[{\"type\":\"pont\"}]"), "s.json:2:19: 'type' is 'pont'; did you mean 'point'?"},
+        {with("\"lights\":[{\"type\":\"point\"}]"), "s.json:2:11: a point light has no 'position'; add it"},
+        {with("\"lights\":[{\"type\":\"directional\",\"direction\":[0,0,0]}]"),
+         "s.json:2:45: 'direction' has no length; give the way the light travels"},
+        {with("\"lights\":[{\"type\":\"directional\",\"intensity\":[0,0,0]}]"),
+         "s.json:2:33: a directional light has no key 'intensity'; known here: type, direction, irradiance"},
+        {with("\"lights\":{}"), "s.json:2:10: 'lights' is an object; give an array"},
+    });
+}
+
+TEST_CASE("bad materials are refused") {
+    checkAll({
+        {material("{}"), "s.json:2:1: the material 'm' has no 'model'; add \"model\": \"phong\", \"pbr\" or \"checker\""},
+        {material("{\"model\":\"fong\"}"), "s.json:2:10: 'model' is 'fong'; did you mean 'phong'?"},
+        {material("{\"model\":\"phong\",\"ior\":0}"), "s.json:2:24: 'ior' is 0; give a number over 0"},
+        {material("{\"model\":\"phong\",\"ior\":1e-60}"), "s.json:2:24: 'ior' is 1e-60; give a number over 0"},
+        {material("{\"model\":\"pbr\",\"baseColor\":[1,1,2]}"),
+         "s.json:2:33: 'baseColor[2]' is 2; give a number at least 0 and at most 1"},
+        {material("{\"model\":\"pbr\",\"transmission\":1}"),
+         "s.json:2:31: transmission with roughness over 0 is not in this version; set 'roughness' to 0 (its default is 0.5)"},
+        {material("{\"model\":\"pbr\",\"metallic\":1,\"roughness\":0.2}"),
+         "s.json:2:41: metallic with roughness over 0 is not in this version; set 'roughness' to 0 (its default is 0.5)"},
+        {material("{\"model\":\"pbr\",\"alphaMode\":\"mask\"}"),
+         "s.json:2:28: 'alphaMode': 'mask' is not in this version; use opaque"},
+        {material("{\"model\":\"pbr\",\"normalTexture\":\"n.png\"}"),
+         "s.json:2:32: 'normalTexture' is not in this version; leave it out"},
+        {material("{\"model\":\"pbr\",\"glass\":\"BK7\"}"),
+         "s.json:2:24: 'glass' is not in this version; give 'ior' and 'transmission'"},
+        {material("{\"model\":\"checker\",\"a\":\"n\",\"b\":\"m\"}"), "s.json:2:24: there is no material 'n'; known here: m"},
+        {material("{\"model\":\"checker\",\"a\":\"m\",\"b\":\"m\"}"),
+         "s.json:2:24: 'm' is a checker itself; name a phong or pbr material"},
+        {material("{\"model\":\"checker\",\"a\":\"m\"}"), "s.json:2:1: the material 'm' has no 'b'; add it"},
+        {material("7"), "s.json:2:1: the material 'm' is a number; give an object"},
+    });
+}
+
+TEST_CASE("bad objects are refused") {
+    checkAll({
+        {"{}", "s.json:1:1: the scene has no 'objects'; add it"},
+        {"{\"objects\":[]}", "s.json:1:12: there is nothing to render; add an object to 'objects'"},
+        {object("{}"), "s.json:2:1: a mesh object has no 'mesh'; add it"},
+        {object("{\"mesh\":\"two.obj\"}"),
+         "s.json:2:9: there is no file 'two.obj'; paths are relative to the scene file's folder"},
+        {object("{\"mesh\":\"bad.obj\"}"), "bad.obj:1: 'x' is not a finite number; repair the line"},
+        {object("{\"mesh\":\"one.obj\",\"material\":\"whit\"}"),
+         "s.json:2:30: there is no material 'whit'; did you mean 'white'?"},
+        {object("{\"mesh\":\"one.obj\",\"sphere\":{}}"),
+         "s.json:2:1: an object has more than one shape; split it into one object a shape"},
+        {object("{\"mesh\":\"one.obj\",\"scale\":0}"), "s.json:2:27: 'scale' is zero; no axis may be scaled to nothing"},
+        {object("{\"mesh\":\"one.obj\",\"scale\":[1,0,1]}"), "s.json:2:27: 'scale' is zero; no axis may be scaled to nothing"},
+        {object("{\"mesh\":\"one.obj\",\"scale\":\"2\"}"),
+         "s.json:2:27: 'scale' is a string; give a number or an array of 3 numbers"},
+        {object("{\"mesh\":\"one.obj\",\"smooth\":1}"), "s.json:2:28: 'smooth' is a number; give true or false"},
+        {object("{\"mesh\":\"one.obj\",\"instances\":[]}"),
+         "s.json:2:31: 'instances' is empty; give one transform or leave it out"},
+        {object("{\"mesh\":\"one.obj\",\"scale\":2,\"instances\":[{}]}"),
+         "s.json:2:27: an object with 'instances' has 'scale' of its own; move it into each instance"},
+        {object("{\"sphere\":{\"radius\":0},\"material\":\"white\"}"), "s.json:2:21: 'radius' is 0; give a number over 0"},
+        {object("{\"sphere\":{}}"), "s.json:2:1: a sphere object has no 'material'; add it"},
+        {object("{\"sphere\":{},\"material\":null}"), "s.json:2:25: only a mesh brings a material of its own; name a material"},
+        {object("{\"rectangle\":{\"u\":[1,0,0],\"v\":[2,0,0]},\"material\":\"white\"}"),
+         "s.json:2:14: the rectangle has no area; 'u' and 'v' must differ in direction"},
+        {object("{\"rectangle\":{\"u\":[1,0,0]},\"material\":\"white\"}"), "s.json:2:14: a rectangle has no 'v'; add it"},
+        {object("{\"sphere\":{},\"material\":\"white\",\"priority\":0.5}"),
+         "s.json:2:44: 'priority' is not whole; give a whole number"},
+    });
+    Diagnostics diagnostics;
+    CHECK_THROWS_WITH_AS(loadScene("no-such-scene.json", diagnostics),
+                         "no-such-scene.json: the file cannot be opened; check that it exists and may be read", Error);
+}
+
+TEST_CASE("keys of later versions give one warning each") {
+    Loader loader;
+    loader.load(R"({"lights":[{"type":"directional","direction":[0,-1,0]}],"nesting":"parity","camera":{"aperture":0},
+"materials":{"a":{"model":"pbr","transmission":1,"roughness":0,"attenuationColor":[1,0.5,0.5],"attenuationDistance":2},
+"b":{"model":"pbr","transmission":1,"roughness":0,"attenuationColor":[1,0.5,0.5],"inscatter":0,"dispersion":0.1}},
+"objects":[{"sphere":{},"material":"a","priority":1},{"sphere":{},"material":"b","priority":2}]})");
+    std::vector<std::string> expected = {
+        "s.json:2:83: warning: 'attenuationColor' has no effect in this version; glass is drawn without absorption",
+        "s.json:2:117: warning: 'attenuationDistance' has no effect in this version; glass is drawn without absorption",
+        "s.json:3:109: warning: 'dispersion' has no effect in this version; all wavelengths refract by 'ior'",
+        "s.json:1:67: warning: 'nesting' has no effect in this version; volumes do not nest",
+        "s.json:4:51: warning: 'priority' has no effect in this version; volumes do not nest",
+    };
+    std::vector<std::string> warnings;
+    for (const std::string& warning : loader.diagnostics.warnings) warnings.push_back(loader.strip(warning));
+    REQUIRE(warnings.size() == expected.size());
+    for (size_t i = 0; i < expected.size(); ++i) CHECK(warnings[i] == expected[i]);
+}
+
+TEST_CASE("phong materials become weights") {
+    Loader loader;
+    const Scene scene = loader.load(R"({"materials":{
+"gem":{"model":"phong","diffuse":0.5,"specular":2,"reflect":0.1,"refract":0.8,"color":[0.6,0.7,0.8],"shininess":125,"ior":1.5},
+"ice":{"model":"phong","diffuse":0,"reflect":0.25,"refract":0.5,"fresnel":true},
+"floor":{"model":"checker","a":"ice","b":"gem","scale":2}},
+"objects":[{"sphere":{},"material":"floor"}]})");
+    REQUIRE(scene.materials.size() == 3);
+    const Material& gem = scene.materials[0];
+    CHECK(gem.name == "gem");
+    CHECK(gem.diffuse == 0.5f * glm::vec3(0.6f, 0.7f, 0.8f));
+    CHECK(gem.specular == 2.0f * glm::vec3(0.6f, 0.7f, 0.8f));
+    CHECK(gem.reflect == glm::vec3(0.1f));
+    CHECK(gem.transmit == glm::vec3(0.8f));
+    CHECK(gem.shininess == 125);
+    CHECK(gem.ior == 1.5f);
+    CHECK_FALSE(gem.fresnel);
+    CHECK(scene.materials[1].fresnel);
+    CHECK(scene.materials[1].reflect == glm::vec3(0.75f));
+    CHECK(scene.materials[1].transmit == glm::vec3(0.75f));
+    CHECK(scene.materials[2].checker);
+    CHECK(scene.materials[2].checkerA == 1);
+    CHECK(scene.materials[2].checkerB == 0);
+    CHECK(scene.materials[2].checkerScale == 2);
+}
+
+TEST_CASE("pbr materials become weights") {
+    Loader loader;
+    const Scene scene = loader.load(R"({"materials":{
+"matte":{"model":"pbr","baseColor":[0.2,0.4,0.8],"emissive":[1,2,3]},
+"mirror":{"model":"pbr","baseColor":[0.2,0.4,0.8],"metallic":1,"roughness":0},
+"glass":{"model":"pbr","baseColor":[0.2,0.4,0.8],"transmission":1,"roughness":0,"ior":0.75}},
+"objects":[{"sphere":{},"material":"matte"}]})");
+    const glm::vec3 base(0.2f, 0.4f, 0.8f);
+    const Material &matte = scene.materials[0], &mirror = scene.materials[1], &glass = scene.materials[2];
+    CHECK(glm::length(matte.diffuse - base / 3.14159265f) < 1e-7f);
+    CHECK(matte.reflect == glm::vec3(0));
+    CHECK(matte.transmit == glm::vec3(0));
+    CHECK(matte.emission == glm::vec3(1, 2, 3));
+    CHECK(mirror.diffuse == glm::vec3(0));
+    CHECK(mirror.reflect == base);
+    CHECK_FALSE(mirror.fresnel);
+    CHECK(glass.diffuse == glm::vec3(0));
+    CHECK(glass.reflect == glm::vec3(1));
+    CHECK(glass.transmit == base);
+    CHECK(glass.fresnel);
+    CHECK(glass.ior == 0.75f);
+}
+
+TEST_CASE("a mesh that several objects name is loaded once") {
+    Loader loader;
+    const Scene scene =
+        loader.load(object("{\"mesh\":\"one.obj\",\"material\":\"white\"},{\"mesh\":\"./one.obj\"},"
+                           "{\"mesh\":\"one.obj\",\"material\":null,\"smooth\":true,\"instances\":[{},{\"scale\":[1,2,3]}]}"));
+    CHECK(scene.meshes.size() == 1);
+    REQUIRE(scene.objects.size() == 3);
+    CHECK(scene.objects[0].material == 0);
+    CHECK(scene.objects[1].material == kNone);
+    CHECK(scene.objects[2].instances.size() == 2);
+    CHECK(scene.objects[2].instances[1].scale == glm::dvec3(1, 2, 3));
+    CHECK(scene.objects[2].smooth == true);
+    CHECK_FALSE(scene.objects[1].smooth.has_value());
+    REQUIRE(scene.meshes[0].materials.size() == 1);
+    CHECK(scene.materials[scene.meshes[0].materials[0]].diffuse == glm::vec3(0.5f));
+}
+
+TEST_CASE("every prefix of a scene file loads or is refused with its place") {
+    Loader loader;
+    const std::string text = with("\"camera\":{\"position\":[1,2,3]},\"lights\":[{\"type\":\"point\",\"position\":[0,1.5e1,0]}]");
+    for (size_t length = 0; length < text.size(); ++length) {
+        CAPTURE(length);
+        CHECK(loader.error(text.substr(0, length)).find("s.json:") == 0);
+    }
+    CHECK(loader.error(text) == "");
+}
+
+TEST_CASE("the seed scenes load with the counts of their files") {
+    if (!test::haveShared("scenes/seed")) return;
+    struct Expected {
+        const char* name;
+        size_t objects, materials, primitives;
+        uint64_t degenerate;
+        bool smooth;
+    };
+    for (const Expected& expected :
+         {Expected{"five", 6, 8, 53875, 4, true}, Expected{"gem", 2, 4, 136, 0, false}, Expected{"duck", 2, 4, 510, 0, true},
+          Expected{"whisky", 4, 6, 38068, 0, true}, Expected{"whisky_airgap", 4, 6, 22146, 0, true},
+          Expected{"whisky_phong", 4, 6, 38068, 0, true}}) {
+        CAPTURE(expected.name);
+        Diagnostics diagnostics;
+        const Scene scene = loadScene(test::sharedDir() / "scenes/seed" / (std::string(expected.name) + ".json"), diagnostics);
+        CHECK(scene.objects.size() == expected.objects);
+        CHECK(scene.materials.size() == expected.materials);
+        CHECK(scene.lights.size() == 3);
+        CHECK_FALSE(scene.lights[0].inverseSquare);
+        REQUIRE(scene.images.size() == 1);
+        CHECK(scene.images[0].width == 7616);
+        const Geometry geometry = flatten(scene, diagnostics);
+        CHECK(geometry.primitives.size() == expected.primitives);
+        CHECK(geometry.degenerateTriangles == expected.degenerate);
+        CHECK(geometry.anySmooth == expected.smooth);
+        CHECK(geometry.objectNames.size() == expected.objects);
+    }
+}
