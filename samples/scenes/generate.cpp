@@ -24,7 +24,7 @@ void writeStones(const std::filesystem::path& folder) {
 void writeVessels(const std::filesystem::path& folder) {
     Tumbler plain;
     Tumbler fluted;
-    fluted.flutes = 16;
+    fluted.flutes = 10;
     writeObj(tumbler(plain), folder / "tumbler.obj");
     writeObj(tumbler(fluted), folder / "tumbler_fluted.obj");
     writeObj(tumblerFilling(plain, 0.052), folder / "whisky.obj");

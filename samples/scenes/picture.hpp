@@ -17,7 +17,8 @@ struct Picture {
 /// `colorAt(u, v)` at the centre of every pixel; u to the right, v down, both in [0,1].
 Picture paint(int width, int height, const std::function<glm::dvec3(double, double)>& colorAt);
 
-/// Equirectangular evening sky over a dark plain with three soft boxes; +Y at the top row, -Z at u = 1/4. Linear radiance.
+/// Equirectangular evening sky over a lake between hills, lit by three soft boxes; +Y at the top row, -Z at u = 1/4. Linear
+/// radiance.
 Picture eveningSky(int width, int height);
 
 /// Cobalt bands and petals on white, for the vase: repeats in u, v = 0 at the top.

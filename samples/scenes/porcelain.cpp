@@ -22,9 +22,11 @@ double petals(double u, double v, int count, double base, double tip) {
     return leaf * glm::clamp(vein + 0.28, 0.0, 1.0);
 }
 
+constexpr double kAspect = 0.95;  // of the vase where it is widest: once around over the length of its profile
+
 /// Round flowers in a row about v = middle.
 double flowers(double u, double v, int count, double middle, double size) {
-    const glm::dvec2 p = glm::dvec2{(u * count - std::floor(u * count) - 0.5) / count * 2.2, v - middle} / size;
+    const glm::dvec2 p = glm::dvec2{(u * count - std::floor(u * count) - 0.5) / count * kAspect, v - middle} / size;
     const double radius = glm::length(p);
     const double lobes = 0.78 + 0.22 * std::cos(6 * std::atan2(p.y, p.x));
     const double blossom = 1 - glm::smoothstep(lobes - 0.05, lobes + 0.05, radius);
@@ -40,11 +42,11 @@ Picture porcelain(int width, int height) {
     const glm::dvec3 cobalt{0.012, 0.05, 0.30};
     return paint(width, height, [&](double u, double v) {
         double ink = 0;
-        for (const double band : {0.30, 0.325, 0.475, 0.70, 0.715, 0.955}) ink = glm::max(ink, stroke(v - band, 0.005));
-        ink = glm::max(ink, petals(u, v, 14, 0.94, 0.73));
-        ink = glm::max(ink, flowers(u, v, 7, 0.59, 0.075));
-        ink = glm::max(ink, 0.85 * flowers(u + 0.5 / 7, v, 7, 0.59, 0.035));
-        ink = glm::max(ink, petals(u, v, 20, 0.46, 0.345));
+        for (const double band : {0.345, 0.475, 0.488, 0.70, 0.715, 0.90}) ink = glm::max(ink, stroke(v - band, 0.005));
+        ink = glm::max(ink, petals(u, v, 14, 0.89, 0.73));
+        ink = glm::max(ink, flowers(u, v, 7, 0.59, 0.06));
+        ink = glm::max(ink, 0.85 * flowers(u + 0.5 / 7, v, 7, 0.59, 0.028));
+        ink = glm::max(ink, petals(u, v, 8, 0.465, 0.37));
         return glm::mix(glaze, cobalt, ink);
     });
 }

@@ -64,36 +64,53 @@ double clouds(const glm::dvec3& d) {
 }
 
 glm::dvec3 sky(const glm::dvec3& d) {
-    const glm::dvec3 zenith{0.055, 0.10, 0.24};
-    const glm::dvec3 middle{0.25, 0.30, 0.46};
-    const glm::dvec3 horizon{0.95, 0.56, 0.36};
-    const glm::dvec3 sunward = toward(24, 3);
+    const glm::dvec3 zenith{0.045, 0.085, 0.22};
+    const glm::dvec3 middle{0.20, 0.26, 0.44};
+    const glm::dvec3 horizon{0.88, 0.45, 0.25};
+    const glm::dvec3 sunward = toward(13, 3.5);
     const double nearSun = 0.5 + 0.5 * glm::dot(d, sunward);
-    const glm::dvec3 low = glm::mix(glm::dvec3(0.42, 0.36, 0.46), horizon, std::pow(nearSun, 3));
+    const glm::dvec3 low = glm::mix(glm::dvec3(0.30, 0.27, 0.40), horizon, std::pow(nearSun, 3));
     glm::dvec3 color = glm::mix(low, middle, glm::smoothstep(0.0, 0.28, d.y));
     color = glm::mix(color, zenith, glm::smoothstep(0.15, 0.95, d.y));
     color = glm::mix(color, glm::mix(glm::dvec3(0.5, 0.42, 0.48), glm::dvec3(1.25, 0.78, 0.55), std::pow(nearSun, 4)),
                      0.75 * clouds(d));
-    return color + glm::dvec3(2.2, 1.2, 0.55) * std::pow(nearSun, 60) + glm::dvec3(9, 6, 3.2) * std::pow(nearSun, 900);
+    return color + glm::dvec3(0.9, 0.4, 0.14) * std::pow(nearSun, 80) + glm::dvec3(12, 7.5, 3.6) * std::pow(nearSun, 4000);
 }
 
-glm::dvec3 plain(const glm::dvec3& d) {
-    const glm::dvec3 far{0.20, 0.145, 0.14};
-    const glm::dvec3 below{0.035, 0.032, 0.04};
-    return glm::mix(far, below, glm::smoothstep(0.0, 0.5, -d.y));
+/// Height of a hill's outline above the horizon, as sine of the elevation.
+double ridge(const glm::dvec3& d, double frequency, double height) {
+    const glm::dvec3 around = glm::normalize(glm::dvec3{d.x, 0, d.z}) * frequency;
+    return height * (0.25 + 0.9 * valueNoise(around + 40.0) + 0.35 * valueNoise(around * 2.9 + 90.0));
+}
+
+glm::dvec3 skyAndHills(const glm::dvec3& d) {
+    constexpr double kSoft = 0.006;
+    glm::dvec3 color = sky(d);
+    const glm::dvec3 haze = sky(glm::normalize(glm::dvec3{d.x, 0.02, d.z}));
+    const double far = ridge(d, 2.6, 0.085);
+    const double near = ridge(d, 4.1, 0.045);
+    color = glm::mix(glm::mix(glm::dvec3(0.10, 0.105, 0.19), haze, 0.30), color, glm::smoothstep(far - kSoft, far + kSoft, d.y));
+    return glm::mix(glm::mix(glm::dvec3(0.035, 0.045, 0.085), haze, 0.08), color,
+                    glm::smoothstep(near - kSoft, near + kSoft, d.y));
+}
+
+/// A lake: the sky upside down, weaker the steeper one looks.
+glm::dvec3 lake(const glm::dvec3& d) {
+    const double mirror = 0.06 + 0.7 * std::exp(6 * d.y);
+    return glm::dvec3(0.02, 0.03, 0.045) + mirror * skyAndHills(glm::normalize(glm::dvec3{d.x, -1.15 * d.y, d.z}));
 }
 
 }  // namespace
 
 Picture eveningSky(int width, int height) {
-    const SoftBox boxes[] = {{toward(-118, 38), 0.62, 0.40, {6.5, 5.8, 5.0}},  // key, behind the camera's left shoulder
-                             {toward(128, 30), 0.16, 0.75, {3.0, 4.2, 6.0}},   // cool strip on the right
-                             {toward(5, 82), 0.55, 0.55, {3.2, 3.3, 3.5}}};    // overhead
+    const SoftBox boxes[] = {{toward(-118, 38), 0.52, 0.34, {6.5, 5.8, 5.0}},  // key, behind the camera's left shoulder
+                             {toward(128, 32), 0.14, 0.5, {3.0, 4.2, 6.0}},    // cool strip on the right
+                             {toward(0, 74), 0.42, 0.2, {3.2, 3.3, 3.5}}};     // overhead
     return paint(width, height, [&](double u, double v) {
         const double azimuth = glm::two_pi<double>() * (u - 0.5);
         const double polar = glm::pi<double>() * v;
         const glm::dvec3 d{std::cos(azimuth) * std::sin(polar), std::cos(polar), std::sin(azimuth) * std::sin(polar)};
-        glm::dvec3 color = glm::mix(plain(d), sky(d), glm::smoothstep(-0.012, 0.012, d.y));
+        glm::dvec3 color = d.y > 0 ? skyAndHills(d) : lake(d);
         for (const SoftBox& box : boxes) color += glow(box, d);
         return color;
     });
