@@ -3,7 +3,7 @@
 #ifdef EFFECT_CHECKER
 
 uint resolveMaterial(uint index, vec3 p, vec3 ng) {
-    minirt_material material = materials[index];
+    minirt_material material = fetchMaterial(index);
     vec3 cell = floor((p + material.checker.xyz) / material.checker.w);
     vec3 a = abs(ng);
     float parity = a.x > a.y && a.x > a.z ? cell.y + cell.z : a.y > a.z ? cell.x + cell.z : cell.x + cell.y;

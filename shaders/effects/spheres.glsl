@@ -1,8 +1,8 @@
 // Effect `spheres`: analytic spheres among the primitives. Identity: every primitive is a triangle.
 
-layout(binding = MINIRT_BINDING_PRIMITIVES) uniform samplerBuffer primitiveRows;
+layout(binding = MINIRT_BINDING_PRIMITIVES) uniform usamplerBuffer primitiveRows;
 
-vec4 primitiveRow(uint slot, uint row) { return texelFetch(primitiveRows, int(slot * 3u + row)); }
+vec4 primitiveRow(uint slot, uint row) { return uintBitsToFloat(texelFetch(primitiveRows, int(slot * 3u + row))); }
 
 struct PrimitiveHit {
     bool hit;
