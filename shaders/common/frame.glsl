@@ -24,14 +24,6 @@ struct PixelTask {
     uint slot;
 };
 
-/// Every second bit of x, packed: the inverse of Morton order.
-uint everySecondBit(uint x) {
-    x &= 0x55555555u;
-    x = (x | x >> 1) & 0x33333333u;
-    x = (x | x >> 2) & 0x0f0f0f0fu;
-    return (x | x >> 4) & 0x00ff00ffu;
-}
-
 /// A group is a block of 8 x 8 pixels in Morton order: neighbours in a subgroup see the same part of the scene.
 PixelTask pixelTask() {
     uint group = gl_WorkGroupID.x;
@@ -49,13 +41,6 @@ PixelTask pixelTask() {
     task.filmIndex = task.pixel.y * frame.size.x + task.pixel.x;
     task.slot = group * gl_WorkGroupSize.x + lane;
     return task;
-}
-
-/// Where sample `index` lies in its pixel: the centre first, then the R2 low-discrepancy sequence (Roberts 2018).
-vec2 pixelSample(uint index) {
-    // Fixed point: the fractional parts stay exact for any index.
-    uvec2 bits = uvec2(0x80000000u) + index * uvec2(3242174889u, 2447445414u);
-    return vec2(bits >> 8) * (1.0 / 16777216.0);
 }
 
 vec3 cameraDirection(uvec2 pixel, uint sampleIndex) {
