@@ -111,6 +111,14 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 
 #define MINIRT_IMAGE_REPEAT_V 1u
 
+/* Rows of 16 bytes of an element in its texel buffer. */
+#define MINIRT_PRIMITIVE_ROWS 3
+#define MINIRT_NORMAL_ROWS 3
+#define MINIRT_UV_ROWS 2
+#define MINIRT_MATERIAL_ROWS 7
+#define MINIRT_LIGHT_ROWS 3
+#define MINIRT_IMAGE_ROWS 2
+
 /* What a kernel reads of the scene as a whole. Positions in the blob are relative to minirt_scene_desc::origin ("scene space"). */
 struct minirt_scene_rows {
     minirt_vec4 gridOrigin; /* xyz: position of plane 0 of the nodes' boxes */
@@ -317,8 +325,8 @@ typedef struct minirt_blob {
     const minirt_scene_rows* rows;
     const uint32_t* nodes;      /* 8 words each, or 16 (MINIRT_NODES_FLOAT) */
     const minirt_vec4* primitives; /* 3 rows each; w: material | MINIRT_PRIMITIVE_SPHERE, object, corners or MINIRT_NONE */
-    const float* normals;       /* 9 each */
-    const float* uvs;           /* 6 each */
+    const minirt_vec4* normals; /* 3 rows each: the corners' unit normals */
+    const minirt_vec4* uvs;     /* 2 rows each: u0 v0 u1 v1, u2 v2 0 0 */
     const minirt_material* materials;
     const minirt_light* lights;
     const minirt_image* images;
@@ -613,8 +621,8 @@ inline minirt_result findSections(BlobReader& r, const minirt_blob_section* tabl
     const uint64_t nodeBytes = blob.scene->node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
     blob.nodes = finder.find<uint32_t>("NODES", nodeBytes, &blob.node_count, true);
     blob.primitives = finder.find<minirt_vec4>("PRIMS", 48, &blob.primitive_count, true);
-    blob.normals = finder.find<float>("NORMALS", 36, &blob.normal_count, false);
-    blob.uvs = finder.find<float>("UVS", 24, &blob.uv_count, false);
+    blob.normals = finder.find<minirt_vec4>("NORMALS", MINIRT_NORMAL_ROWS * 16, &blob.normal_count, false);
+    blob.uvs = finder.find<minirt_vec4>("UVS", MINIRT_UV_ROWS * 16, &blob.uv_count, false);
     blob.materials = finder.find<minirt_material>("MATERIAL", sizeof(minirt_material), &blob.material_count, true);
     blob.lights = finder.find<minirt_light>("LIGHTS", sizeof(minirt_light), &blob.light_count, false);
     blob.images = finder.find<minirt_image>("IMAGES", sizeof(minirt_image), &blob.image_count, false);
@@ -700,8 +708,8 @@ inline minirt_result checkPrimitives(BlobReader& r, const minirt_blob& b) {
         if (material >= b.material_count) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no material", i);
         if (corners != MINIRT_NONE && corners >= cornerCount) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no corners", i);
     }
-    if (firstNonFinite(b.normals, b.normal_count * 9, 1, 1) != b.normal_count * 9) return r.fail(MINIRT_ERROR_CORRUPT, "a normal is not finite");
-    if (firstNonFinite(b.uvs, b.uv_count * 6, 1, 1) != b.uv_count * 6) return r.fail(MINIRT_ERROR_CORRUPT, "a texture coordinate is not finite");
+    if (firstNonFinite(b.normals, b.normal_count * 3, 4, 4) != b.normal_count * 3) return r.fail(MINIRT_ERROR_CORRUPT, "a normal is not finite");
+    if (firstNonFinite(b.uvs, b.uv_count * 2, 4, 4) != b.uv_count * 2) return r.fail(MINIRT_ERROR_CORRUPT, "a texture coordinate is not finite");
     return MINIRT_OK;
 }
 
@@ -1304,18 +1312,28 @@ inline minirt_result uploadThroughStaging(minirt_context* c, const Buffer& targe
     return MINIRT_OK;
 }
 
+/* How a kernel sees a binding. What it reads of the scene lies in texel buffers of 16-byte rows, but for images' texels. */
+inline VkDescriptorType descriptorType(uint32_t binding) {
+    if (binding == MINIRT_BINDING_SCENE) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    return binding < MINIRT_BINDING_FILM ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+inline VkFormat viewFormat(uint32_t binding) {
+    if (descriptorType(binding) != VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) return VK_FORMAT_UNDEFINED;
+    return binding == MINIRT_BINDING_TEXELS ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
+}
+
 /* One part of the blob as a buffer of the given binding; an absent part gets none. */
-inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, VkFormat viewFormat, Buffer& staging) {
+inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, Buffer& staging) {
     if (!data || !size) return MINIRT_OK;
     minirt_context* c = s->context;
     Buffer& buffer = s->buffers[binding];
-    const bool texel = viewFormat != VK_FORMAT_UNDEFINED;
-    const VkDeviceSize texelBytes = viewFormat == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
+    const VkFormat format = viewFormat(binding);
+    const bool texel = format != VK_FORMAT_UNDEFINED;
+    const VkDeviceSize texelBytes = format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
     if (texel && size / texelBytes > c->limits.maxTexelBufferElements)
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the scene is too large for this device: %sbinding %lld", "", binding);
-    if (!texel && size > c->limits.maxStorageBufferRange)
-        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the scene is too large for this device: %sbinding %lld", "", binding);
-    const VkBufferUsageFlags usage = (texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags usage = (texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (minirt_result r = createBuffer(c, size, usage, Placement::device, buffer)) return r;
     if (buffer.mapped)
         memcpy(buffer.mapped, data, static_cast<size_t>(size));
@@ -1325,7 +1343,7 @@ inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* d
     VkBufferViewCreateInfo view = {};
     view.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
     view.buffer = buffer.buffer;
-    view.format = viewFormat;
+    view.format = format;
     view.range = VK_WHOLE_SIZE;
     return check(c, c->vk.CreateBufferView(c->device, &view, nullptr, &buffer.view), "vkCreateBufferView");
 }
@@ -1335,24 +1353,23 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
         uint32_t binding;
         const void* data;
         uint64_t size;
-        VkFormat format;
     };
     const uint64_t nodeBytes = b.scene->node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
     const Part parts[] = {
-        {MINIRT_BINDING_SCENE, b.rows, sizeof *b.rows, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_NODES, b.nodes, b.node_count * nodeBytes, VK_FORMAT_R32G32B32A32_UINT},
-        {MINIRT_BINDING_PRIMITIVES, b.primitives, b.primitive_count * 48, VK_FORMAT_R32G32B32A32_SFLOAT},
-        {MINIRT_BINDING_NORMALS, b.normals, b.normal_count * 36, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_UVS, b.uvs, b.uv_count * 24, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_MATERIALS, b.materials, b.material_count * sizeof *b.materials, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_LIGHTS, b.lights, b.light_count * sizeof *b.lights, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_IMAGES, b.images, b.image_count * sizeof *b.images, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_TEXELS, b.texels, b.texel_count * 8, VK_FORMAT_R16G16B16A16_SFLOAT},
+        {MINIRT_BINDING_SCENE, b.rows, sizeof *b.rows},
+        {MINIRT_BINDING_NODES, b.nodes, b.node_count * nodeBytes},
+        {MINIRT_BINDING_PRIMITIVES, b.primitives, b.primitive_count * 48},
+        {MINIRT_BINDING_NORMALS, b.normals, b.normal_count * MINIRT_NORMAL_ROWS * 16},
+        {MINIRT_BINDING_UVS, b.uvs, b.uv_count * MINIRT_UV_ROWS * 16},
+        {MINIRT_BINDING_MATERIALS, b.materials, b.material_count * sizeof *b.materials},
+        {MINIRT_BINDING_LIGHTS, b.lights, b.light_count * sizeof *b.lights},
+        {MINIRT_BINDING_IMAGES, b.images, b.image_count * sizeof *b.images},
+        {MINIRT_BINDING_TEXELS, b.texels, b.texel_count * 8},
     };
     Buffer staging;
     minirt_result result = MINIRT_OK;
     for (const Part& part : parts)
-        if (!result) result = uploadPart(s, part.binding, part.data, part.size, part.format, staging);
+        if (!result) result = uploadPart(s, part.binding, part.data, part.size, staging);
     destroyBuffer(s->context, staging);
     if (result) return result;
     return createBuffer(s->context, sizeof(minirt_counters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::readBack,
@@ -1360,14 +1377,6 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
 }
 
 /* >>implementation-pipeline */
-inline bool isTexelBinding(uint32_t binding) {
-    return binding == MINIRT_BINDING_NODES || binding == MINIRT_BINDING_PRIMITIVES || binding == MINIRT_BINDING_TEXELS;
-}
-
-inline VkDescriptorType descriptorType(uint32_t binding) {
-    return isTexelBinding(binding) ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
 inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     minirt_context* c = s->context;
     VkDescriptorSetLayoutBinding entries[MINIRT_BINDING_COUNT] = {};
@@ -1394,11 +1403,13 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     layout.pPushConstantRanges = &push;
     if (minirt_result r = check(c, c->vk.CreatePipelineLayout(c->device, &layout, nullptr, &s->pipelineLayout), "vkCreatePipelineLayout")) return r;
 
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 3}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, MINIRT_BINDING_COUNT}};
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, MINIRT_BINDING_COUNT},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, MINIRT_BINDING_COUNT}};
     VkDescriptorPoolCreateInfo pool = {};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
-    pool.poolSizeCount = 2;
+    pool.poolSizeCount = 3;
     pool.pPoolSizes = sizes;
     if (minirt_result r = check(c, c->vk.CreateDescriptorPool(c->device, &pool, nullptr, &s->descriptorPool), "vkCreateDescriptorPool")) return r;
     VkDescriptorSetAllocateInfo allocate = {};
@@ -1476,7 +1487,7 @@ inline minirt_result fillAbsentBuffers(minirt_scene* s, uint32_t bindings) {
     minirt_result result = MINIRT_OK;
     for (uint32_t b = 0; b < MINIRT_BINDING_FILM && !result; ++b) {
         if (!(bindings >> b & 1u) || s->buffers[b].buffer) continue;
-        result = uploadPart(s, b, zeros, sizeof zeros, isTexelBinding(b) ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_UNDEFINED, staging);
+        result = uploadPart(s, b, zeros, sizeof zeros, staging);
     }
     destroyBuffer(s->context, staging);
     return result;

@@ -18,17 +18,15 @@ Surface surfaceAt(vec3 origin, vec3 direction, uint slot, float t) {
     vec4 row2 = primitiveRow(slot, 2u);
     TriangleHit hit = intersectTriangle(origin, shearOf(direction), row0.xyz, row1.xyz, row2.xyz, MINIRT_RAY_END);
     vec2 b = vec2(hit.b1, hit.b2);
-    vec3 p0 = (1.0 - b.x - b.y) * row0.xyz;
-    vec3 p1 = b.x * row1.xyz;
-    vec3 p2 = b.y * row2.xyz;
+    SurfacePoint point = trianglePoint(hit, row0.xyz, row1.xyz, row2.xyz);
+    refineSphere(row0, row1, origin, direction, t, point);
     Surface surface;
-    surface.p = p0 + p1 + p2;
-    surface.pError = errorGamma(7) * (abs(p0) + abs(p1) + abs(p2));
-    surface.ng = unitVector(cross(row1.xyz - row0.xyz, row2.xyz - row0.xyz));
-    refineSphere(row0, row1, origin, direction, t, surface.p, surface.pError, surface.ng);
+    surface.p = point.p;
+    surface.pError = point.pError;
+    surface.ng = point.ng;
     uint corners = floatBitsToUint(row2.w);
     surface.n = shadingNormal(corners, row0.xyz, row1.xyz, row2.xyz, b, surface.p, surface.ng, surface.lift);
     surface.material = resolveMaterial(floatBitsToUint(row0.w) & ~MINIRT_PRIMITIVE_SPHERE, surface.p, surface.ng);
-    surface.diffuseTexture = diffuseTexture(materials[surface.material].options.y, corners, b);
+    surface.diffuseTexture = diffuseTexture(fetchMaterial(surface.material).options.y, corners, b);
     return surface;
 }

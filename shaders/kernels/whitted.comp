@@ -148,7 +148,7 @@ void main() {
         }
         bool hit = walk.hitSlot != MINIRT_NONE;
         Surface surface = surfaceAt(walk.segment.origin, walk.segment.direction, hit ? walk.hitSlot : 0u, walk.hitT);
-        minirt_material material = materials[surface.material];
+        minirt_material material = fetchMaterial(surface.material);
         float side = dot(walk.segment.direction, surface.ng) < 0.0 ? 1.0 : -1.0;
         vec3 ng = surface.ng * side;
         vec3 n = surface.n * side;
