@@ -8,7 +8,7 @@ build_packages=(
     g++ cmake ninja-build
     libvulkan-dev mesa-vulkan-drivers
     glslang-dev glslang-tools spirv-tools
-    libglm-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev libtinyexr-dev libstb-dev libglfw3-dev
+    libglm-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev libtinyexr-dev libstb-dev libglfw3-dev libgl-dev
     doctest-dev libembree-dev
 )
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 int main(int argc, char** argv) {
-    const uint32_t width = 320, height = 240;
+    const size_t width = 320, height = 240;
     minirt_context* ctx = NULL;
     minirt_scene* scene = NULL;
     const int help = argc == 2 && strcmp(argv[1], "--help") == 0;
@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     if (!rgba) return 1;
     minirt_result r = minirt_create(&(minirt_context_desc){0}, &ctx);
     if (!r) r = minirt_load_file(ctx, argv[1], &scene);
-    if (!r) r = minirt_render(scene, &(minirt_render_desc){.width = width, .height = height}, rgba);
+    if (!r) r = minirt_render(scene, &(minirt_render_desc){.width = (uint32_t)width, .height = (uint32_t)height}, rgba);
     const float* middle = rgba + (height / 2 * width + width / 2) * 4;
     if (r)
         fprintf(stderr, "%s: %s. %s\n", argv[1], minirt_result_string(r), minirt_last_message(ctx));
