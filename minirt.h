@@ -80,7 +80,9 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 #define MINIRT_BINDING_RAY_COUNTS 10
 #define MINIRT_BINDING_STATE 11
 #define MINIRT_BINDING_COUNTERS 12
-#define MINIRT_BINDING_COUNT 13
+#define MINIRT_BINDING_NODE_STORAGE 13
+#define MINIRT_BINDING_PRIMITIVE_STORAGE 14
+#define MINIRT_BINDING_COUNT 15
 
 /* Specialisation constants: what differs between a CPU device and a GPU. */
 #define MINIRT_SPEC_GROUP_SIZE 0
@@ -90,7 +92,8 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 #define MINIRT_SPEC_STEP_BUDGET 4
 #define MINIRT_SPEC_INTERLEAVE_GROUPS 5
 #define MINIRT_SPEC_STACK_LEVELS 6
-#define MINIRT_SPEC_COUNT 7
+#define MINIRT_SPEC_FETCH_TEXELS 7
+#define MINIRT_SPEC_COUNT 8
 
 /* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp). */
 #define MINIRT_WALK_WORDS 18
@@ -157,7 +160,7 @@ struct minirt_frame {
     minirt_vec4 up;        /* scaled to its half height */
     minirt_uvec4 size;     /* x, y: width and height of the whole image; z: waiting segments that the state has room for */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
-    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: slots of the state buffer */
+    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
     minirt_uvec4 sampling; /* x: sample index, z: depth limit, w: 1 to go on with saved pixels */
 };
 
@@ -1323,6 +1326,12 @@ inline VkFormat viewFormat(uint32_t binding) {
     return binding == MINIRT_BINDING_TEXELS ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
 }
 
+/* The buffer behind a binding: nodes and primitives are bound twice. */
+inline uint32_t bufferOf(uint32_t binding) {
+    if (binding == MINIRT_BINDING_NODE_STORAGE) return MINIRT_BINDING_NODES;
+    return binding == MINIRT_BINDING_PRIMITIVE_STORAGE ? MINIRT_BINDING_PRIMITIVES : binding;
+}
+
 /* One part of the blob as a buffer of the given binding; an absent part gets none. */
 inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, Buffer& staging) {
     if (!data || !size) return MINIRT_OK;
@@ -1333,7 +1342,8 @@ inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* d
     const VkDeviceSize texelBytes = format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
     if (texel && size / texelBytes > c->limits.maxTexelBufferElements)
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the scene is too large for this device: %sbinding %lld", "", binding);
-    const VkBufferUsageFlags usage = (texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                     (texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     if (minirt_result r = createBuffer(c, size, usage, Placement::device, buffer)) return r;
     if (buffer.mapped)
         memcpy(buffer.mapped, data, static_cast<size_t>(size));
@@ -1423,10 +1433,12 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
 /* How a kernel is specialised for the class of the device. Some CPU drivers end all loops of a subgroup together after 65535 passes
    without saying so; a pixel that stays below 65535 / subgroup size can never get there. */
 struct Specialisation {
-    uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels;
+    uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels, fetchTexels;
 };
 
-inline Specialisation specialisation(const minirt_context* c, uint32_t stackLevels) {
+inline Specialisation specialisation(const minirt_scene* scene) {
+    const minirt_context* c = scene->context;
+    const uint32_t stackLevels = scene->desc.bvh_depth;
     const bool cpu = c->info.is_cpu != 0;
     Specialisation s = {};
     s.groupSize = kBlockPixels;
@@ -1436,6 +1448,8 @@ inline Specialisation specialisation(const minirt_context* c, uint32_t stackLeve
     s.privateStackWords = s.stackIsShared ? 1 : stackLevels;
     s.stepBudget = cpu ? 65535u / c->subgroupSize - 64u : 1u << 18;
     s.interleaveGroups = cpu;
+    const VkDeviceSize range = c->limits.maxStorageBufferRange;
+    s.fetchTexels = cpu || scene->buffers[MINIRT_BINDING_NODES].size > range || scene->buffers[MINIRT_BINDING_PRIMITIVES].size > range;
     return s;
 }
 
@@ -1448,7 +1462,7 @@ inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel
     VkShaderModule shader = VK_NULL_HANDLE;
     if (minirt_result r = check(c, c->vk.CreateShaderModule(c->device, &module, nullptr, &shader), "vkCreateShaderModule")) return r;
 
-    const Specialisation values = specialisation(c, s->desc.bvh_depth);
+    const Specialisation values = specialisation(s);
     static_assert(sizeof values == MINIRT_SPEC_COUNT * sizeof(uint32_t), "one word a constant, in the order of their ids");
     VkSpecializationMapEntry entries[MINIRT_SPEC_COUNT];
     for (uint32_t i = 0; i < MINIRT_SPEC_COUNT; ++i) entries[i] = {i, i * 4, 4};
@@ -1500,7 +1514,9 @@ inline void writeDescriptors(minirt_scene* s) {
     const uint32_t bindings = s->kernels[s->activeKernel].bindings;
     for (uint32_t b = 0; b < MINIRT_BINDING_COUNT; ++b) {
         if (!(bindings >> b & 1u)) continue;
-        buffers[b] = {s->buffers[b].buffer, 0, VK_WHOLE_SIZE};
+        const Buffer& buffer = s->buffers[bufferOf(b)];
+        const bool storage = descriptorType(b) == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        buffers[b] = {buffer.buffer, 0, storage ? smaller<VkDeviceSize>(buffer.size, s->context->limits.maxStorageBufferRange) : VK_WHOLE_SIZE};
         VkWriteDescriptorSet& write = writes[count++];
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = s->descriptorSet;
@@ -1508,7 +1524,7 @@ inline void writeDescriptors(minirt_scene* s) {
         write.descriptorCount = 1;
         write.descriptorType = descriptorType(b);
         write.pBufferInfo = &buffers[b];
-        write.pTexelBufferView = &s->buffers[b].view;
+        write.pTexelBufferView = &buffer.view;
     }
     s->context->vk.UpdateDescriptorSets(s->context->device, count, writes, 0, nullptr);
 }
@@ -1630,7 +1646,7 @@ inline void setFrame(minirt_job* job) {
     const minirt_region& region = d.region;
     job->frame.size = {d.width, d.height, job->scene->kernels[job->scene->activeKernel].waits ? d.max_depth : 0, 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
-    job->frame.blocks = {0, (region.width + 7) / 8, 0, job->stateBlocks * kBlockPixels};
+    job->frame.blocks = {0, (region.width + 7) / 8, 0, stateWords(job)};
     job->frame.sampling = {d.first_sample, 0, d.max_depth, 0};
 }
 

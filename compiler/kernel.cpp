@@ -21,17 +21,19 @@ constexpr auto kToolsEnvironment = SPV_ENV_VULKAN_1_1;
 
 /// The order in which the parts of a kernel build on each other.
 const std::vector<std::string> kParts = {
-    "common/language.glsl",     "layout",
-    "common/frame.glsl",        "common/numerics.glsl",
-    "bsdf/optics.glsl",         "traverse/box.glsl",
-    "traverse/triangle.glsl",   "traverse/sphere.glsl",
-    "traverse/nodes.glsl",      "effects/spheres.glsl",
-    "traverse/traverse.glsl",   "common/suspend.glsl",
-    "effects/images.glsl",      "effects/background.glsl",
-    "effects/smooth_normals.glsl", "effects/textures.glsl",
-    "common/materials.glsl",    "effects/checker.glsl",
-    "common/surface.glsl",      "effects/lights.glsl",
-    "effects/scatter.glsl",     "effects/emission.glsl",
+    "common/language.glsl",    "common/neighbours.glsl",
+    "common/numerics.glsl",    "common/pixel.glsl",
+    "common/patterns.glsl",    "bsdf/optics.glsl",
+    "traverse/box.glsl",       "traverse/triangle.glsl",
+    "traverse/sphere.glsl",    "layout",
+    "common/frame.glsl",       "common/fetch.glsl", "traverse/nodes.glsl",
+    "effects/spheres.glsl",    "traverse/traverse.glsl",
+    "common/suspend.glsl",     "effects/images.glsl",
+    "effects/background.glsl", "effects/smooth_normals.glsl",
+    "effects/textures.glsl",   "common/materials.glsl",
+    "effects/checker.glsl",    "common/surface.glsl",
+    "effects/lights.glsl",     "effects/scatter.glsl",
+    "effects/emission.glsl",
 };
 
 const std::string kHeader = R"(#version 460

@@ -10,6 +10,8 @@ layout(constant_id = MINIRT_SPEC_STEP_BUDGET) const uint STEP_BUDGET = 1048576u;
 layout(constant_id = MINIRT_SPEC_INTERLEAVE_GROUPS) const bool INTERLEAVE_GROUPS = false;
 layout(constant_id = MINIRT_SPEC_STACK_LEVELS) const uint STACK_LEVELS = 64u;
 
+layout(constant_id = MINIRT_SPEC_FETCH_TEXELS) const bool FETCH_TEXELS = false;
+
 layout(push_constant) uniform FrameBlock { minirt_frame frame; };
 layout(std140, binding = MINIRT_BINDING_SCENE) uniform SceneBlock { minirt_scene_rows scene; };
 layout(std430, binding = MINIRT_BINDING_FILM) buffer FilmBuffer { vec4 film[]; };           // sum of radiance, number of samples
@@ -23,14 +25,6 @@ struct PixelTask {
     uint filmIndex;
     uint slot;
 };
-
-/// Every second bit of x, packed: the inverse of Morton order.
-uint everySecondBit(uint x) {
-    x &= 0x55555555u;
-    x = (x | x >> 1) & 0x33333333u;
-    x = (x | x >> 2) & 0x0f0f0f0fu;
-    return (x | x >> 4) & 0x00ff00ffu;
-}
 
 /// A group is a block of 8 x 8 pixels in Morton order: neighbours in a subgroup see the same part of the scene.
 PixelTask pixelTask() {
@@ -49,13 +43,6 @@ PixelTask pixelTask() {
     task.filmIndex = task.pixel.y * frame.size.x + task.pixel.x;
     task.slot = group * gl_WorkGroupSize.x + lane;
     return task;
-}
-
-/// Where sample `index` lies in its pixel: the centre first, then the R2 low-discrepancy sequence (Roberts 2018).
-vec2 pixelSample(uint index) {
-    // Fixed point: the fractional parts stay exact for any index.
-    uvec2 bits = uvec2(0x80000000u) + index * uvec2(3242174889u, 2447445414u);
-    return vec2(bits >> 8) * (1.0 / 16777216.0);
 }
 
 vec3 cameraDirection(uvec2 pixel, uint sampleIndex) {

@@ -6,11 +6,3 @@ const float MACHINE_EPSILON = 5.9604644775390625e-8;  // 2^-24: half a unit in t
 #define HALF_PI 1.57079632679489661923
 #define INV_PI 0.31830988618379067154
 #define INV_TWO_PI 0.15915494309189533577
-
-float nextUp(float x) {
-    if (x == 0.0) return uintBitsToFloat(1u);
-    uint bits = floatBitsToUint(x);
-    return uintBitsToFloat(x > 0.0 ? bits + 1u : bits - 1u);
-}
-
-float nextDown(float x) { return -nextUp(-x); }

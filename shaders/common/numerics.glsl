@@ -22,8 +22,15 @@ real roundAway(real value, real direction) {
     return value;
 }
 
-/// Origin of a ray that leaves the surface point `p` on the side of `w`: outside of the box of errors `pError` around p,
-/// so it cannot meet the surface again, and no farther (pbrt-v4 section 6.8.6). `ng` is the unit geometric normal.
+/// A point on a surface, known up to rounding.
+struct SurfacePoint {
+    vec3 p;
+    vec3 pError;  // bound of the absolute error of p
+    vec3 ng;      // unit geometric normal, outward
+};
+
+/// Origin of a ray that leaves a SurfacePoint on the side of `w`: outside of the box of errors around p, so it cannot meet the
+/// surface again, and no farther (pbrt-v4 section 6.8.6).
 vec3 offsetRayOrigin(vec3 p, vec3 pError, vec3 ng, vec3 w) {
     vec3 offset = ng * dot(abs(ng), pError);
     if (dot(w, ng) < real(0)) offset = -offset;

@@ -5,8 +5,6 @@
 layout(binding = MINIRT_BINDING_IMAGES) uniform usamplerBuffer imageRows;
 layout(binding = MINIRT_BINDING_TEXELS) uniform samplerBuffer texels;
 
-int wrapTexel(int i, int size, bool repeats) { return repeats ? i - size * int(floor(float(i) / float(size))) : clamp(i, 0, size - 1); }
-
 /// Bilinear; texel centres at half-integers; v = 0 is the top row. `u` wraps, `v` wraps or clamps as the image says.
 vec3 sampleImage(uint index, vec2 uv) {
     int row = int(index) * MINIRT_IMAGE_ROWS;

@@ -1,9 +1,5 @@
 // Effect `spheres`: analytic spheres among the primitives. Identity: every primitive is a triangle.
 
-layout(binding = MINIRT_BINDING_PRIMITIVES) uniform usamplerBuffer primitiveRows;
-
-vec4 primitiveRow(uint slot, uint row) { return uintBitsToFloat(texelFetch(primitiveRows, int(slot * 3u + row))); }
-
 struct PrimitiveHit {
     bool hit;
     float t;
@@ -21,14 +17,13 @@ PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear sh
     return isSphere(row0) ? PrimitiveHit(sphere.hit, sphere.t) : PrimitiveHit(triangle.hit, triangle.t);
 }
 
-/// The point at distance t on the sphere, with its bound of error (pbrt-v4 section 6.8.5) and outward normal, where the primitive is one.
-void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, inout vec3 p, inout vec3 pError, inout vec3 ng) {
-    vec3 fromCenter = origin + direction * t - row0.xyz;
-    fromCenter *= row1.x / max(length(fromCenter), 1e-30);
+/// Puts the hit's point on the sphere where the primitive is one.
+void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, inout SurfacePoint point) {
+    SurfacePoint onSphere = spherePoint(origin, direction, t, row0.xyz, row1.x);
     bool sphere = isSphere(row0);
-    p = sphere ? row0.xyz + fromCenter : p;
-    pError = sphere ? errorGamma(6) * (abs(fromCenter) + abs(row0.xyz)) : pError;
-    ng = sphere ? fromCenter / row1.x : ng;
+    point.p = sphere ? onSphere.p : point.p;
+    point.pError = sphere ? onSphere.pError : point.pError;
+    point.ng = sphere ? onSphere.ng : point.ng;
 }
 
 #else
@@ -41,6 +36,6 @@ PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear sh
     return PrimitiveHit(triangle.hit, triangle.t);
 }
 
-void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, inout vec3 p, inout vec3 pError, inout vec3 ng) {}
+void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, inout SurfacePoint point) {}
 
 #endif

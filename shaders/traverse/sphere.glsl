@@ -24,3 +24,14 @@ SphereHit intersectSphere(vec3 origin, vec3 direction, vec3 center, real radius,
     hit.hit = discriminant >= real(0) && hit.t > real(0) && hit.t < tMax;
     return hit;
 }
+
+/// The point of a hit, brought back onto the sphere (pbrt-v4 section 6.8.5).
+SurfacePoint spherePoint(vec3 origin, vec3 direction, real t, vec3 center, real radius) {
+    vec3 fromCenter = origin + direction * t - center;
+    fromCenter *= radius / max(length(fromCenter), real(1e-30));
+    SurfacePoint point;
+    point.p = center + fromCenter;
+    point.pError = errorGamma(6) * (abs(fromCenter) + abs(center));
+    point.ng = fromCenter / radius;
+    return point;
+}

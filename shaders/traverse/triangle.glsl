@@ -72,3 +72,15 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
     hit.hit = (least >= real(0) || greatest <= real(0)) && determinant != real(0) && hit.t > error && hit.t < tMax;
     return hit;
 }
+
+/// The point of a hit, from its barycentrics (pbrt-v4 section 6.8.5).
+SurfacePoint trianglePoint(TriangleHit hit, vec3 v0, vec3 v1, vec3 v2) {
+    vec3 p0 = (real(1) - hit.b1 - hit.b2) * v0;
+    vec3 p1 = hit.b1 * v1;
+    vec3 p2 = hit.b2 * v2;
+    SurfacePoint point;
+    point.p = p0 + p1 + p2;
+    point.pError = errorGamma(7) * (abs(p0) + abs(p1) + abs(p2));
+    point.ng = unitVector(cross(v1 - v0, v2 - v0));
+    return point;
+}
