@@ -160,7 +160,7 @@ struct minirt_frame {
     minirt_vec4 up;        /* scaled to its half height */
     minirt_uvec4 size;     /* x, y: width and height of the whole image; z: waiting segments that the state has room for */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
-    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: slots of the state buffer */
+    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
     minirt_uvec4 sampling; /* x: sample index, z: depth limit, w: 1 to go on with saved pixels */
 };
 
@@ -1646,7 +1646,7 @@ inline void setFrame(minirt_job* job) {
     const minirt_region& region = d.region;
     job->frame.size = {d.width, d.height, job->scene->kernels[job->scene->activeKernel].waits ? d.max_depth : 0, 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
-    job->frame.blocks = {0, (region.width + 7) / 8, 0, job->stateBlocks * kBlockPixels};
+    job->frame.blocks = {0, (region.width + 7) / 8, 0, stateWords(job)};
     job->frame.sampling = {d.first_sample, 0, d.max_depth, 0};
 }
 

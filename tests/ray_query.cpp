@@ -55,12 +55,11 @@ struct RayQuery::Device {
     }
 
     void upload(const std::vector<oracle::Ray>& rays) {
-        const uint64_t stateWords = 1 + MINIRT_TRAVERSAL_WORDS + scene->desc.bvh_depth;
         const uint64_t slots = std::min<uint64_t>(rays.size(), uint64_t{kMaxGroups} * detail::kBlockPixels);
         constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
         require(detail::ensureBuffer(scene, MINIRT_BINDING_FILM, rays.size() * sizeof(oracle::Ray), usage));
         require(detail::ensureBuffer(scene, MINIRT_BINDING_RAY_COUNTS, rays.size() * sizeof(DeviceHit), usage));
-        require(detail::ensureBuffer(scene, MINIRT_BINDING_STATE, slots * stateWords * sizeof(uint32_t), 0));
+        require(detail::ensureBuffer(scene, MINIRT_BINDING_STATE, slots * stateWords() * sizeof(uint32_t), 0));
         detail::writeDescriptors(scene);
         const detail::Buffer& target = scene->buffers[MINIRT_BINDING_FILM];
         const size_t size = rays.size() * sizeof(oracle::Ray);
@@ -74,6 +73,9 @@ struct RayQuery::Device {
         require(result);
     }
 
+    /// Words of saved state a ray, as shaders/kernels/rays.comp lays them out.
+    uint32_t stateWords() const { return 1 + MINIRT_TRAVERSAL_WORDS + scene->desc.bvh_depth; }
+
     /// All rays, in as many dispatches as it takes.
     void run(uint32_t groups, QueryMode mode) {
         minirt_job job;
@@ -84,7 +86,7 @@ struct RayQuery::Device {
         std::memset(counters, 0, sizeof *counters);
         for (uint32_t first = 0; first < groups; first += kMaxGroups) {
             const uint32_t count = std::min(kMaxGroups, groups - first);
-            job.frame.blocks = {first, 1, 0, count * detail::kBlockPixels};
+            job.frame.blocks = {first, 1, 0, stateWords()};
             bool resume = false;
             do {
                 job.frame.sampling = {0, mode == QueryMode::any ? 1u : 0u, 0, resume ? 1u : 0u};

@@ -82,6 +82,7 @@ public:
         size_t samePrimitive = 0;
         size_t sameDistance = 0;  // of another primitive
         size_t bundled = 0;       // differ, but so do the rays of the bundle
+        size_t atOrigin = 0;      // the true hit is too near to the ray's origin to tell from one behind it
         size_t wrong = 0;
     };
 
@@ -100,6 +101,8 @@ public:
             (expected.primitive == got.primitive ? tally.samePrimitive : tally.sameDistance)++;
         } else if (isInBundle(ray, expected, got)) {
             tally.bundled++;
+        } else if (isAtOrigin(ray, expected) && isInBundle(ray, scene_.closestHit(past(ray, expected)), got)) {
+            tally.atOrigin++;
         } else {
             tally.wrong++;
             INFO("expected primitive " << expected.primitive << " at " << expected.t << ", got " << got.primitive << " at "
@@ -129,6 +132,22 @@ private:
         return 16 * kEpsilon * distanceTo(ray, primitive) * aspect / (cosTheta * glm::length(d));
     }
 
+    /// The origin lies on the triangle as far as float can tell at the distance of its vertices.
+    bool isAtOrigin(const Ray& ray, const oracle::Hit& hit) const {
+        return hit.primitive != oracle::kNone &&
+               heightAbove(ray, hit.primitive) <= 16 * kEpsilon * distanceTo(ray, hit.primitive);
+    }
+
+    double heightAbove(const Ray& ray, uint32_t primitive) const {
+        const glm::dvec3 a(mesh_[primitive][0]), u = glm::dvec3(mesh_[primitive][1]) - a, v = glm::dvec3(mesh_[primitive][2]) - a;
+        return std::abs(glm::dot(glm::normalize(glm::cross(u, v)), glm::dvec3(ray.origin) - a));
+    }
+
+    static Ray past(Ray ray, const oracle::Hit& hit) {
+        ray.tMin = std::nextafter(static_cast<float>(hit.t), oracle::kInfinity);
+        return ray;
+    }
+
     bool isInBundle(const Ray& ray, const oracle::Hit& expected, const QueryHit& got) const {
         double distance = 0;
         for (uint32_t primitive : {expected.primitive, got.primitive})
@@ -139,9 +158,13 @@ private:
         const glm::dvec3 v = glm::normalize(glm::cross(d, u));
         double nearest = expected.t, farthest = expected.t;
         for (int i = 0; i < 16; ++i) {
-            const double angle = i * 0.39269908169872414, radius = (i % 2 ? 8 : 24) * kEpsilon * distance;
+            const double angle = i * 0.78539816339744831, error = (i % 2 ? 8 : 24) * kEpsilon;
+            const glm::dvec3 aside = u * std::cos(angle) + v * std::sin(angle);
             Ray shifted = ray;
-            shifted.origin = glm::vec3(glm::dvec3(ray.origin) + radius * (u * std::cos(angle) + v * std::sin(angle)));
+            if (i < 8)
+                shifted.origin = glm::vec3(glm::dvec3(ray.origin) + aside * error * distance);
+            else
+                shifted.direction = glm::vec3(d + aside * error * glm::length(d));
             const oracle::Hit hit = scene_.closestHit(shifted);
             nearest = std::min(nearest, hit.t);
             farthest = std::max(farthest, hit.t);
@@ -184,7 +207,7 @@ void compareWithDouble(GpuContext& gpu, const Model& model, const std::vector<Ra
         for (size_t k = 0; k < rays.size(); ++k) judge.compare(rays[k], expected[k], hits[i][k], tally);
         report(what, tally);
         CHECK(tally.wrong == 0);
-        CHECK(tally.bundled * 50 <= tally.rays);
+        CHECK(tally.bundled * 20 <= tally.rays);
     }
     for (size_t k = 0; k < rays.size(); ++k) REQUIRE(hits[0][k].t == hits[1][k].t);
 }
@@ -244,7 +267,7 @@ void compareWithEmbree(const std::string& name) {
                          << differing.rays << " (right by the judge in double " << differing.rays - differing.wrong << ")");
         CHECK(compared >= 700000);
         CHECK(differing.wrong == 0);
-        CHECK(differing.rays * 10000 <= compared);
+        CHECK(differing.rays * 1000 <= compared);
     }
 }
 
@@ -401,6 +424,25 @@ TEST_CASE("rays from a thousand kilometres away") {
         std::vector<Ray> rays = kind.make(model.mesh, 5000, 3);
         for (Ray& ray : rays) ray.origin -= glm::normalize(ray.direction) * 1e6f;
         compareWithDouble(gpu, model, rays, kind.name);
+    }
+}
+
+TEST_CASE("millimetre faces are hit from kilometres away") {
+    GpuContext gpu;
+    if (!gpu) return;
+    oracle::Mesh mesh = flatGrid(64);
+    for (oracle::Triangle& triangle : mesh)
+        for (glm::vec3& p : triangle) p *= 0.032f;
+    const Model model = modelOf(mesh);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 1000; ++i) {
+        const float angle = 1.5f * static_cast<float>(i) / 1000;  // up to 86 degrees off the normal
+        const glm::vec3 d(std::sin(angle), -std::cos(angle), 0);
+        rays.push_back({-3000.0f * d, 0, d, oracle::kInfinity});
+    }
+    for (LayoutChoice layout : kLayouts) {
+        RayQuery query(gpu.get(), model.scene, model.geometry, layout);
+        for (const QueryHit& hit : query.trace(rays, QueryMode::closest)) CHECK(hit.t == doctest::Approx(3000).epsilon(1e-5));
     }
 }
 

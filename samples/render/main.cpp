@@ -36,7 +36,10 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--max-depth", o.maxDepth, "Bounces after the camera ray (default: the scene's)")->check(CLI::Range(0, 255));
     const std::map<std::string, minirt_integrator> integrators = {
         {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
-    app.add_option("--integrator", o.integrator, "whitted, path or wavefront (default: the scene's)")->transform(CLI::CheckedTransformer(integrators));
+    app.add_option_function<std::string>(
+           "--integrator", [&o, integrators](const std::string& name) { o.integrator = integrators.at(name); },
+           "How to render (default: the scene's)")
+        ->check(CLI::IsMember(integrators));
     app.add_option("--samples", o.samples, "Render samples A up to, not including, B: A:B");
     app.add_option("--region", o.region, "Render only this part: X,Y,WIDTHxHEIGHT");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
@@ -122,7 +125,8 @@ void writeStats(const std::string& path, const minirt_device_info& device, const
 }
 
 void render(const Options& options) {
-    checkOption(isPictureName(options.output), "--output: use an ending of .png, .exr, .hdr or .pfm");
+    if (!isPictureName(options.output))
+        throw UsageError(options.output + ": unknown kind of picture; use .png, .exr, .hdr or .pfm");
     minirt_render_desc desc = renderDesc(options);
     for (const std::string& path : {options.output, options.stats}) {
         const std::string problem = path.empty() ? "" : whyNotWritable(path);

@@ -40,7 +40,8 @@ ViewerDesc viewerDesc(const Options& o) {
     if (!o.size.empty()) parseSize(o.size, desc.size.width, desc.size.height);
     if (!o.screenshot.empty()) {
         desc.samples = o.afterSamples;
-        if (std::filesystem::path(o.screenshot).extension() != ".png") throw UsageError("--screenshot: use an ending of .png");
+        if (std::filesystem::path(o.screenshot).extension() != ".png")
+            throw UsageError(o.screenshot + ": unknown kind of screenshot; use .png");
         const std::string problem = whyNotWritable(o.screenshot);
         if (!problem.empty()) throw UsageError(problem);
     }

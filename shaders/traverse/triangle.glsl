@@ -29,16 +29,17 @@ struct TriangleHit {
     real b2;
 };
 
-/// Bound of the error of a hit's t. Hits nearer than it may lie behind the origin (pbrt-v4 section 6.8.7).
-/// `a`, `b`, `c`: sheared vertices; `greatestEdge`: of the edge functions, without sign.
-real triangleErrorOfT(vec3 a, vec3 b, vec3 c, real greatestEdge, real inverseDeterminant) {
-    real x = max(abs(a.x), max(abs(b.x), abs(c.x)));
-    real y = max(abs(a.y), max(abs(b.y), abs(c.y)));
-    real z = max(abs(a.z), max(abs(b.z), abs(c.z)));
-    real errorX = errorGamma(5) * (x + z);
-    real errorY = errorGamma(5) * (y + z);
-    real errorEdge = real(2) * (errorGamma(2) * x * y + errorY * x + errorX * y);
-    return real(3) * z * (real(2) * errorGamma(3) * greatestEdge + errorEdge) * abs(inverseDeterminant);
+/// Bound of the error of a hit's depth, its coordinate on the longest axis. Hits nearer than it may lie behind the origin (after pbrt-v4
+/// section 6.8.7). `a`, `b`, `c`: sheared vertices. Their rounding moves the triangle's plane: the depth follows by the plane's slopes.
+/// The rounding of the edge functions moves the point within the plane: the depth follows by a share of the triangle's range of depths.
+/// Being a mean of the vertices' depths it never leaves that range, so that small, thin and grazed triangles far away keep their hits.
+real triangleErrorOfDepth(vec3 a, vec3 b, vec3 c, real inverseDeterminant) {
+    vec3 size = max(abs(a), max(abs(b), abs(c)));
+    real range = max(a.z, max(b.z, c.z)) - min(a.z, min(b.z, c.z));
+    vec3 slopes = abs(cross(b - a, c - a) * inverseDeterminant);
+    real tilted = errorGamma(4) * ((size.x + size.z) * slopes.x + (size.y + size.z) * slopes.y);
+    real shifted = real(6) * errorGamma(2) * size.x * size.y * abs(inverseDeterminant) * range;
+    return errorGamma(10) * size.z + min(tilted + shifted, range);
 }
 
 /// Intersects the line of the ray with the triangle v0 v1 v2, for hits with 0 < t < tMax, t beyond its own error. Two triangles that share an edge leave no gap between
@@ -67,7 +68,7 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
     hit.b2 = e2 * inverse;
     real least = min(e0, min(e1, e2));
     real greatest = max(e0, max(e1, e2));
-    real error = triangleErrorOfT(vec3(ax, ay, az), vec3(bx, by, bz), vec3(cx, cy, cz), max(greatest, -least), inverse);
+    real error = triangleErrorOfDepth(vec3(ax, ay, a.z), vec3(bx, by, b.z), vec3(cx, cy, c.z), inverse) * abs(shear.scale.z);
     hit.hit = (least >= real(0) || greatest <= real(0)) && determinant != real(0) && hit.t > error && hit.t < tMax;
     return hit;
 }
