@@ -106,7 +106,7 @@ minirt_scene_rows encodeRows(const Scene& scene, const EncodedNodes& nodes, cons
     rows.gridScale = vec4(nodes.gridScale);
     rows.gridPlanes = vec4(nodes.gridPlanes);
     const bool image = scene.background.image != kNone;
-    rows.background = vec4(image ? glm::vec3(scene.background.strength) : scene.background.color * scene.background.strength,
+    rows.background = vec4(image ? glm::vec3(scene.background.strength) : scene.background.color,
                            scene.background.rotation / 360.0f);
     rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.place(scene.background.image), 0, 0};
     return rows;
