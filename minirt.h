@@ -624,8 +624,8 @@ inline minirt_result findSections(BlobReader& r, const minirt_blob_section* tabl
     const uint64_t nodeBytes = blob.scene->node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
     blob.nodes = finder.find<uint32_t>("NODES", nodeBytes, &blob.node_count, true);
     blob.primitives = finder.find<minirt_vec4>("PRIMS", 48, &blob.primitive_count, true);
-    blob.normals = finder.find<minirt_vec4>("NORMALS", MINIRT_NORMAL_ROWS * 16, &blob.normal_count, false);
-    blob.uvs = finder.find<minirt_vec4>("UVS", MINIRT_UV_ROWS * 16, &blob.uv_count, false);
+    blob.normals = finder.find<minirt_vec4>("NORMALS", MINIRT_NORMAL_ROWS * uint64_t(16), &blob.normal_count, false);
+    blob.uvs = finder.find<minirt_vec4>("UVS", MINIRT_UV_ROWS * uint64_t(16), &blob.uv_count, false);
     blob.materials = finder.find<minirt_material>("MATERIAL", sizeof(minirt_material), &blob.material_count, true);
     blob.lights = finder.find<minirt_light>("LIGHTS", sizeof(minirt_light), &blob.light_count, false);
     blob.images = finder.find<minirt_image>("IMAGES", sizeof(minirt_image), &blob.image_count, false);

@@ -1,5 +1,5 @@
 // The shader files that hold physics and numerics, compiled as C++: f32 is what the device computes, f64 the same in double.
-// Include it in one file of a program only: the shaders' functions are not inline.
+// The order is that of a kernel's parts. Include it in one file of a program only: the shaders' functions are not inline.
 #pragma once
 #include <cmath>
 #include <glm/glm.hpp>
@@ -35,14 +35,16 @@ using real = float;
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
-#include "../shaders/bsdf/optics.glsl"
+// clang-format off
 #include "../shaders/common/neighbours.glsl"
 #include "../shaders/common/numerics.glsl"
-#include "../shaders/common/patterns.glsl"
 #include "../shaders/common/pixel.glsl"
+#include "../shaders/common/patterns.glsl"
+#include "../shaders/bsdf/optics.glsl"
 #include "../shaders/traverse/box.glsl"
-#include "../shaders/traverse/sphere.glsl"
 #include "../shaders/traverse/triangle.glsl"
+#include "../shaders/traverse/sphere.glsl"
+// clang-format on
 }  // namespace f32
 
 namespace f64 {
@@ -57,13 +59,15 @@ inline real nextUp(real x) {
 inline real nextDown(real x) {
     return std::nextafter(x, -std::numeric_limits<real>::infinity());
 }
-#include "../shaders/bsdf/optics.glsl"
+// clang-format off
 #include "../shaders/common/numerics.glsl"
-#include "../shaders/common/patterns.glsl"
 #include "../shaders/common/pixel.glsl"
+#include "../shaders/common/patterns.glsl"
+#include "../shaders/bsdf/optics.glsl"
 #include "../shaders/traverse/box.glsl"
-#include "../shaders/traverse/sphere.glsl"
 #include "../shaders/traverse/triangle.glsl"
+#include "../shaders/traverse/sphere.glsl"
+// clang-format on
 }  // namespace f64
 
 #undef PRECISE

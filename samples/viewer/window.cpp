@@ -108,7 +108,7 @@ void Window::draw() const {
     glBegin(GL_TRIANGLE_STRIP);
     for (int corner = 0; corner < 4; ++corner) {
         const auto x = static_cast<float>(corner % 2);
-        const auto y = static_cast<float>(corner / 2);
+        const auto y = corner < 2 ? 0.0f : 1.0f;
         glTexCoord2f(x, 1 - y);
         glVertex2f(2 * x - 1, 2 * y - 1);
     }

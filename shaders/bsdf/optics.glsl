@@ -31,8 +31,9 @@ Interface meetInterface(vec3 d, vec3 n, real eta) {
     return result;
 }
 
-/// `w` pushed to the side of the unit normal `side` where a shading normal sent it to the other side; else w bit for bit.
+/// `w` pushed to the side of the unit normal `side` where a shading normal sent it to the other side, or within rounding of it; else
+/// w bit for bit.
 vec3 keepOnSide(vec3 w, vec3 side) {
     real height = dot(w, side);
-    return height > real(0) ? w : normalize(w + side * (real(1e-4) - height));
+    return height > errorGamma(3) ? w : normalize(w + side * (real(1e-4) - height));
 }

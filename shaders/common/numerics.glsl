@@ -38,7 +38,7 @@ vec3 offsetRayOrigin(vec3 p, vec3 pError, vec3 ng, vec3 w) {
     return vec3(roundAway(moved.x, offset.x), roundAway(moved.y, offset.y), roundAway(moved.z, offset.z));
 }
 
-/// atan(y / x) over all four quadrants, in radians, to 1e-7, alike on every device; 0 at the origin.
+/// atan(y / x) over all four quadrants, in radians, to 3e-7 (one rounding near pi), alike on every device; 0 at the origin.
 real atan2Portable(real y, real x) {
     real ax = abs(x);
     real ay = abs(y);

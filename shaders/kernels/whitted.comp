@@ -76,17 +76,27 @@ Traversal traceSegment(inout TreeWalk walk, Segment segment) {
     return beginTraversal(segment.origin, segment.direction, MINIRT_RAY_END, false);
 }
 
-/// Makes the shadow ray towards the next light, an empty one where that light adds nothing.
-Traversal traceShadow(inout TreeWalk walk, Surface surface, minirt_material material, vec3 ng, vec3 n) {
-    LightSample light = sampleLight(walk.light, surface.p);
+/// Light that adds less than this share of itself is not worth a shadow ray: a unit in the last place of what other lights add.
+const float NEGLIGIBLE_SHARE = 5.9604644775390625e-8;
+
+/// Looks for the next light that adds something at the surface, and starts the shadow ray towards it. Without one, or when the budget
+/// of steps ends the search, the ray is empty.
+Traversal traceShadow(inout TreeWalk walk, inout uint steps, Surface surface, minirt_material material, vec3 ng, vec3 n) {
+    Traversal ray = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, true);
+    ray.node = NODE_NONE;
     walk.phase = PHASE_SHADOW;
-    walk.light++;
-    vec3 weight = material.diffuse.rgb * surface.diffuseTexture * max(dot(n, light.toLight), 0.0);
-    weight += dot(n, light.toLight) > 0.0 ? highlight(material, n, light.toLight, -walk.segment.direction) : vec3(0.0);
-    walk.unshadowed = walk.segment.throughput * weight * light.irradiance;
-    vec3 origin = offsetRayOrigin(surface.p + surface.lift, surface.pError, ng, ng);
-    Traversal ray = beginTraversal(origin, light.toLight, light.distance, true);
-    if (maxComponent(walk.unshadowed) <= 0.0) ray.node = NODE_NONE;
+    walk.unshadowed = vec3(0.0);
+    while (walk.light < lightCount() && ray.node == NODE_NONE && steps < STEP_BUDGET) {
+        steps++;
+        LightSample light = sampleLight(walk.light++, surface.p);
+        float cosine = dot(n, light.toLight);
+        vec3 share = material.diffuse.rgb * surface.diffuseTexture * max(cosine, 0.0);
+        share += cosine > 0.0 ? highlight(material, n, light.toLight, -walk.segment.direction) : vec3(0.0);
+        if (maxComponent(share) > NEGLIGIBLE_SHARE) {
+            walk.unshadowed = walk.segment.throughput * share * light.irradiance;
+            ray = beginTraversal(offsetRayOrigin(surface.p + surface.lift, surface.pError, ng, ng), light.toLight, light.distance, true);
+        }
+    }
     return ray;
 }
 
@@ -135,7 +145,7 @@ void main() {
     uint steps = 0u;
     while (walk.phase != PHASE_DONE) {
         traverse(ray, steps, STEP_BUDGET);
-        if (!isDone(ray)) break;
+        if (!isDone(ray) || steps >= STEP_BUDGET) break;
         steps++;
         bool arrived = walk.phase == PHASE_CLOSEST;
         if (arrived) {
@@ -154,9 +164,11 @@ void main() {
         vec3 n = surface.n * side;
         if (arrived && hit) radiance += walk.segment.throughput * emission(material);
         if (hit && walk.light < lightCount()) {
-            ray = traceShadow(walk, surface, material, ng, n);
+            ray = traceShadow(walk, steps, surface, material, ng, n);
             rays.x += isDone(ray) ? 0u : 1u;
-        } else {
+        }
+        bool allLightsSeen = isDone(ray) && walk.light == lightCount();
+        if (!hit || allLightsSeen) {
             ray = nextSegment(task.slot, walk, hit, surface, material, ng, n);
             rays.y += walk.phase == PHASE_CLOSEST ? 1u : 0u;
         }

@@ -1,7 +1,8 @@
 // Watertight ray-triangle intersection (Woop, Benthin, Wald 2013). GLSL and C++ (tests/shader_source.hpp).
 
-/// A ray's direction as a shear that maps it onto the axis where it is longest.
+/// A ray's direction, and the shear that maps it onto the axis where it is longest.
 struct Shear {
+    vec3 direction;
     vec3 scale;  // x/z, y/z, 1/z of the permuted direction
     int axis;    // 0, 1, 2: that axis becomes z
 };
@@ -16,6 +17,7 @@ vec3 permute(vec3 v, int axis) {
 Shear shearOf(vec3 direction) {
     vec3 a = abs(direction);
     Shear shear;
+    shear.direction = direction;
     shear.axis = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
     vec3 d = permute(direction, shear.axis);
     shear.scale = vec3(d.x / d.z, d.y / d.z, real(1) / d.z);
@@ -29,21 +31,33 @@ struct TriangleHit {
     real b2;
 };
 
-/// Bound of the error of a hit's depth, its coordinate on the longest axis. Hits nearer than it may lie behind the origin (after pbrt-v4
-/// section 6.8.7). `a`, `b`, `c`: sheared vertices. Their rounding moves the triangle's plane: the depth follows by the plane's slopes.
-/// The rounding of the edge functions moves the point within the plane: the depth follows by a share of the triangle's range of depths.
-/// Being a mean of the vertices' depths it never leaves that range, so that small, thin and grazed triangles far away keep their hits.
-real triangleErrorOfDepth(vec3 a, vec3 b, vec3 c, real inverseDeterminant) {
-    vec3 size = max(abs(a), max(abs(b), abs(c)));
-    real range = max(a.z, max(b.z, c.z)) - min(a.z, min(b.z, c.z));
-    vec3 slopes = abs(cross(b - a, c - a) * inverseDeterminant);
-    real tilted = errorGamma(4) * ((size.x + size.z) * slopes.x + (size.y + size.z) * slopes.y);
-    real shifted = real(6) * errorGamma(2) * size.x * size.y * abs(inverseDeterminant) * range;
-    return errorGamma(10) * size.z + min(tilted + shifted, range);
+/// Where a line meets the plane of a triangle, as far as rounding lets it be known.
+struct PlaneHit {
+    bool steep;  // the line is not parallel to the plane within rounding; else the rest is undefined
+    bool ahead;  // the plane is before the origin, and farther away than rounding reaches
+    real t;
+};
+
+/// `toVertex`: from the origin to a vertex, `u` and `v`: the edges from there. A sign counts only beyond the bound of its error:
+/// rounding has at most 4 steps in a component of n and 4 more in a product with it, all relative to the terms of the cross product.
+PlaneHit intersectPlane(vec3 direction, vec3 toVertex, vec3 u, vec3 v) {
+    vec3 n = cross(u, v);
+    vec3 x = abs(u);
+    vec3 y = abs(v);
+    vec3 error = errorGamma(8) * vec3(x.y * y.z + x.z * y.y, x.z * y.x + x.x * y.z, x.x * y.y + x.y * y.x);
+    real height = dot(n, toVertex);
+    real slope = dot(n, direction);
+    PlaneHit hit;
+    hit.steep = abs(slope) > dot(error, abs(direction));
+    hit.ahead = abs(height) > dot(error, abs(toVertex)) && (height > real(0)) == (slope > real(0));
+    hit.t = height / slope;
+    return hit;
 }
 
-/// Intersects the line of the ray with the triangle v0 v1 v2, for hits with 0 < t < tMax, t beyond its own error. Two triangles that share an edge leave no gap between
-/// them: the edge functions are evaluated alike on both sides, without contraction. A line in the triangle's plane misses.
+/// Intersects the line of the ray, whose direction is of unit length, with the triangle v0 v1 v2, for hits with 0 < t < tMax. Two
+/// triangles that share an edge leave no gap between them: the edge functions are evaluated alike on both sides, without contraction.
+/// A hit whose t could be negative but for rounding is a miss, so a ray that starts beside a triangle does not find it again; the
+/// plane decides this, as it is ten times more certain of the side than a mean of the vertices' depths. A line in the triangle's plane misses.
 TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, real tMax) {
     vec3 a = permute(v0 - origin, shear.axis);
     vec3 b = permute(v1 - origin, shear.axis);
@@ -58,18 +72,22 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
     PRECISE real e1 = ax * cy - ay * cx;
     PRECISE real e2 = bx * ay - by * ax;
     real determinant = e0 + e1 + e2;
+    bool inside = (min(e0, min(e1, e2)) >= real(0) || max(e0, max(e1, e2)) <= real(0)) && determinant != real(0);
     real inverse = real(1) / determinant;
+    vec3 depths = vec3(a.z, b.z, c.z) * shear.scale.z;
+    real nearest = min(depths.x, min(depths.y, depths.z));
+    real farthest = max(depths.x, max(depths.y, depths.z));
+    PlaneHit plane = intersectPlane(shear.direction, v0 - origin, v1 - v0, v2 - v0);
+    // Seen edge-on, all that is certain is that a hit lies between the nearest and the farthest vertex.
+    bool ahead = plane.steep ? plane.ahead : nearest > errorGamma(4) * farthest;
     TriangleHit hit;
-    real az = a.z * shear.scale.z;
-    real bz = b.z * shear.scale.z;
-    real cz = c.z * shear.scale.z;
-    hit.t = (e0 * az + e1 * bz + e2 * cz) * inverse;
+    // The mean of the vertices' depths never leaves their range, so it agrees with the boxes around the triangle; right before the origin
+    // its rounding can cost the sign, which the plane knows.
+    real mean = clamp(dot(vec3(e0, e1, e2), depths) * inverse, nearest, farthest);
+    hit.t = mean > real(0) || !plane.steep ? mean : plane.t;
     hit.b1 = e1 * inverse;
     hit.b2 = e2 * inverse;
-    real least = min(e0, min(e1, e2));
-    real greatest = max(e0, max(e1, e2));
-    real error = triangleErrorOfDepth(vec3(ax, ay, a.z), vec3(bx, by, b.z), vec3(cx, cy, c.z), inverse) * abs(shear.scale.z);
-    hit.hit = (least >= real(0) || greatest <= real(0)) && determinant != real(0) && hit.t > error && hit.t < tMax;
+    hit.hit = inside && ahead && hit.t > real(0) && hit.t < tMax;
     return hit;
 }
 

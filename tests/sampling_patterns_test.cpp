@@ -1,0 +1,68 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "random.hpp"
+#include "shader_source.hpp"
+
+using glm::vec2;
+using glm::vec3;
+
+TEST_CASE("the pixels of a group in Morton order are each a different one of its block") {
+    std::set<std::pair<uint32_t, uint32_t>> pixels;
+    for (uint32_t lane = 0; lane < 64; ++lane) pixels.insert({f32::everySecondBit(lane), f32::everySecondBit(lane >> 1)});
+    CHECK(pixels.size() == 64);
+    CHECK(std::all_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.first < 8 && p.second < 8; }));
+    CHECK(f32::everySecondBit(0x5555u) == 0xffu);
+    CHECK(f32::everySecondBit(0xaaaau) == 0u);
+}
+
+TEST_CASE("the first sample is the centre and the others follow the R2 sequence inside of the pixel") {
+    CHECK(f32::pixelSample(0) == vec2(0.5f));
+    const long double plastic = 1.32471795724474602596L;
+    double worst = 0;
+    bool inside = true;
+    for (uint32_t i = 0; i < 1000000; ++i) {
+        const vec2 sample = f32::pixelSample(i);
+        inside = inside && sample.x >= 0 && sample.x < 1 && sample.y >= 0 && sample.y < 1;
+        const long double x = 0.5L + i / plastic;
+        const long double y = 0.5L + i / (plastic * plastic);
+        const double dx = std::abs(static_cast<double>(x - std::floor(x)) - sample.x);
+        const double dy = std::abs(static_cast<double>(y - std::floor(y)) - sample.y);
+        worst = std::max({worst, std::min(dx, 1 - dx), std::min(dy, 1 - dy)});
+    }
+    CHECK(inside);
+    CHECK(worst < 3e-4);  // the step is rounded to 2^-32, a million times
+}
+
+TEST_CASE("checker cells alternate across zero and follow the two axes across the normal") {
+    const vec3 up(0, 1, 0);
+    CHECK(f32::inEvenCell(vec3(0.5f, 9, 0.5f), up, 1));
+    CHECK_FALSE(f32::inEvenCell(vec3(-0.5f, 9, 0.5f), up, 1));
+    CHECK(f32::inEvenCell(vec3(-0.5f, 9, -0.5f), up, 1));
+    CHECK_FALSE(f32::inEvenCell(vec3(1.5f, 9, 0.5f), up, 1));
+    CHECK(f32::inEvenCell(vec3(1.5f, 9, 0.5f), up, 2));
+    CHECK_FALSE(f32::inEvenCell(vec3(9, 0.5f, -0.5f), vec3(-1, 0, 0), 1));
+    CHECK_FALSE(f32::inEvenCell(vec3(0.5f, -0.5f, 9), vec3(0, 0, 1), 1));
+    test::Random random(1);
+    int wrong = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const vec3 p(random.inCube(1e4));
+        const auto x = static_cast<int64_t>(std::floor(p.x / 0.25f));
+        const auto z = static_cast<int64_t>(std::floor(p.z / 0.25f));
+        wrong += f32::inEvenCell(p, up, 0.25f) != ((x + z) % 2 == 0);
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("texels wrap around or stop at the rim") {
+    int wrong = 0;
+    for (int size = 1; size <= 4100; size += size < 70 ? 1 : 13) {
+        for (const int i : {-size, -size - 1, -1, 0, 1, size - 1, size, size + 1, 7 * size - 1, 7 * size}) {
+            wrong += f32::wrapTexel(i, size, true) != ((i % size) + size) % size;
+            wrong += f32::wrapTexel(i, size, false) != std::clamp(i, 0, size - 1);
+        }
+    }
+    CHECK(wrong == 0);
+}
