@@ -96,7 +96,7 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 #define MINIRT_SPEC_COUNT 8
 
 /* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp). */
-#define MINIRT_WALK_WORDS 18
+#define MINIRT_WALK_WORDS 21
 #define MINIRT_TRAVERSAL_WORDS 10
 #define MINIRT_SEGMENT_WORDS 10
 
