@@ -80,7 +80,9 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 #define MINIRT_BINDING_RAY_COUNTS 10
 #define MINIRT_BINDING_STATE 11
 #define MINIRT_BINDING_COUNTERS 12
-#define MINIRT_BINDING_COUNT 13
+#define MINIRT_BINDING_NODE_STORAGE 13
+#define MINIRT_BINDING_PRIMITIVE_STORAGE 14
+#define MINIRT_BINDING_COUNT 15
 
 /* Specialisation constants: what differs between a CPU device and a GPU. */
 #define MINIRT_SPEC_GROUP_SIZE 0
@@ -90,10 +92,11 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 #define MINIRT_SPEC_STEP_BUDGET 4
 #define MINIRT_SPEC_INTERLEAVE_GROUPS 5
 #define MINIRT_SPEC_STACK_LEVELS 6
-#define MINIRT_SPEC_COUNT 7
+#define MINIRT_SPEC_FETCH_TEXELS 7
+#define MINIRT_SPEC_COUNT 8
 
 /* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp). */
-#define MINIRT_WALK_WORDS 18
+#define MINIRT_WALK_WORDS 21
 #define MINIRT_TRAVERSAL_WORDS 10
 #define MINIRT_SEGMENT_WORDS 10
 
@@ -110,6 +113,14 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 #define MINIRT_LIGHT_INVERSE_SQUARE 2u
 
 #define MINIRT_IMAGE_REPEAT_V 1u
+
+/* Rows of 16 bytes of an element in its texel buffer. */
+#define MINIRT_PRIMITIVE_ROWS 3
+#define MINIRT_NORMAL_ROWS 3
+#define MINIRT_UV_ROWS 2
+#define MINIRT_MATERIAL_ROWS 7
+#define MINIRT_LIGHT_ROWS 3
+#define MINIRT_IMAGE_ROWS 2
 
 /* What a kernel reads of the scene as a whole. Positions in the blob are relative to minirt_scene_desc::origin ("scene space"). */
 struct minirt_scene_rows {
@@ -149,7 +160,7 @@ struct minirt_frame {
     minirt_vec4 up;        /* scaled to its half height */
     minirt_uvec4 size;     /* x, y: width and height of the whole image; z: waiting segments that the state has room for */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
-    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: slots of the state buffer */
+    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
     minirt_uvec4 sampling; /* x: sample index, z: depth limit, w: 1 to go on with saved pixels */
 };
 
@@ -317,8 +328,8 @@ typedef struct minirt_blob {
     const minirt_scene_rows* rows;
     const uint32_t* nodes;      /* 8 words each, or 16 (MINIRT_NODES_FLOAT) */
     const minirt_vec4* primitives; /* 3 rows each; w: material | MINIRT_PRIMITIVE_SPHERE, object, corners or MINIRT_NONE */
-    const float* normals;       /* 9 each */
-    const float* uvs;           /* 6 each */
+    const minirt_vec4* normals; /* 3 rows each: the corners' unit normals */
+    const minirt_vec4* uvs;     /* 2 rows each: u0 v0 u1 v1, u2 v2 0 0 */
     const minirt_material* materials;
     const minirt_light* lights;
     const minirt_image* images;
@@ -613,8 +624,8 @@ inline minirt_result findSections(BlobReader& r, const minirt_blob_section* tabl
     const uint64_t nodeBytes = blob.scene->node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
     blob.nodes = finder.find<uint32_t>("NODES", nodeBytes, &blob.node_count, true);
     blob.primitives = finder.find<minirt_vec4>("PRIMS", 48, &blob.primitive_count, true);
-    blob.normals = finder.find<float>("NORMALS", 36, &blob.normal_count, false);
-    blob.uvs = finder.find<float>("UVS", 24, &blob.uv_count, false);
+    blob.normals = finder.find<minirt_vec4>("NORMALS", MINIRT_NORMAL_ROWS * uint64_t(16), &blob.normal_count, false);
+    blob.uvs = finder.find<minirt_vec4>("UVS", MINIRT_UV_ROWS * uint64_t(16), &blob.uv_count, false);
     blob.materials = finder.find<minirt_material>("MATERIAL", sizeof(minirt_material), &blob.material_count, true);
     blob.lights = finder.find<minirt_light>("LIGHTS", sizeof(minirt_light), &blob.light_count, false);
     blob.images = finder.find<minirt_image>("IMAGES", sizeof(minirt_image), &blob.image_count, false);
@@ -700,8 +711,8 @@ inline minirt_result checkPrimitives(BlobReader& r, const minirt_blob& b) {
         if (material >= b.material_count) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no material", i);
         if (corners != MINIRT_NONE && corners >= cornerCount) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no corners", i);
     }
-    if (firstNonFinite(b.normals, b.normal_count * 9, 1, 1) != b.normal_count * 9) return r.fail(MINIRT_ERROR_CORRUPT, "a normal is not finite");
-    if (firstNonFinite(b.uvs, b.uv_count * 6, 1, 1) != b.uv_count * 6) return r.fail(MINIRT_ERROR_CORRUPT, "a texture coordinate is not finite");
+    if (firstNonFinite(b.normals, b.normal_count * 3, 4, 4) != b.normal_count * 3) return r.fail(MINIRT_ERROR_CORRUPT, "a normal is not finite");
+    if (firstNonFinite(b.uvs, b.uv_count * 2, 4, 4) != b.uv_count * 2) return r.fail(MINIRT_ERROR_CORRUPT, "a texture coordinate is not finite");
     return MINIRT_OK;
 }
 
@@ -820,7 +831,7 @@ struct minirt_context {
     minirt_device_info info = {};
     VkPhysicalDeviceLimits limits = {};
     VkPhysicalDeviceMemoryProperties memoryProperties = {};
-    uint32_t subgroupSize = 32;
+    uint32_t stepBudget = 0;  // of a pixel in a dispatch
     double timestampPeriodNs = 0;  // 0: the queue has no timestamps
     uint64_t timestampMask = 0;
     VkCommandPool commandPool = VK_NULL_HANDLE;
@@ -1122,7 +1133,9 @@ inline void readDeviceProperties(minirt_context* c, uint32_t timestampBits) {
     c->vk.GetPhysicalDeviceProperties2(c->physicalDevice, &properties);
     c->vk.GetPhysicalDeviceMemoryProperties(c->physicalDevice, &c->memoryProperties);
     c->limits = properties.properties.limits;
-    c->subgroupSize = larger(subgroup.subgroupSize, 1u);
+    /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel that stays below
+       65535 / subgroup size can never get there. */
+    c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ? 65535u / larger(subgroup.subgroupSize, 1u) - 64u : 1u << 18;
     c->timestampPeriodNs = timestampBits ? static_cast<double>(c->limits.timestampPeriod) : 0.0;
     c->timestampMask = timestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << timestampBits) - 1;
     c->info = describe(c, c->physicalDevice);
@@ -1304,18 +1317,35 @@ inline minirt_result uploadThroughStaging(minirt_context* c, const Buffer& targe
     return MINIRT_OK;
 }
 
+/* How a kernel sees a binding. What it reads of the scene lies in texel buffers of 16-byte rows, but for images' texels. */
+inline VkDescriptorType descriptorType(uint32_t binding) {
+    if (binding == MINIRT_BINDING_SCENE) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    return binding < MINIRT_BINDING_FILM ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+inline VkFormat viewFormat(uint32_t binding) {
+    if (descriptorType(binding) != VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) return VK_FORMAT_UNDEFINED;
+    return binding == MINIRT_BINDING_TEXELS ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
+}
+
+/* The buffer behind a binding: nodes and primitives are bound twice. */
+inline uint32_t bufferOf(uint32_t binding) {
+    if (binding == MINIRT_BINDING_NODE_STORAGE) return MINIRT_BINDING_NODES;
+    return binding == MINIRT_BINDING_PRIMITIVE_STORAGE ? MINIRT_BINDING_PRIMITIVES : binding;
+}
+
 /* One part of the blob as a buffer of the given binding; an absent part gets none. */
-inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, VkFormat viewFormat, Buffer& staging) {
+inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, Buffer& staging) {
     if (!data || !size) return MINIRT_OK;
     minirt_context* c = s->context;
     Buffer& buffer = s->buffers[binding];
-    const bool texel = viewFormat != VK_FORMAT_UNDEFINED;
-    const VkDeviceSize texelBytes = viewFormat == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
+    const VkFormat format = viewFormat(binding);
+    const bool texel = format != VK_FORMAT_UNDEFINED;
+    const VkDeviceSize texelBytes = format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
     if (texel && size / texelBytes > c->limits.maxTexelBufferElements)
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the scene is too large for this device: %sbinding %lld", "", binding);
-    if (!texel && size > c->limits.maxStorageBufferRange)
-        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the scene is too large for this device: %sbinding %lld", "", binding);
-    const VkBufferUsageFlags usage = (texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                     (texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     if (minirt_result r = createBuffer(c, size, usage, Placement::device, buffer)) return r;
     if (buffer.mapped)
         memcpy(buffer.mapped, data, static_cast<size_t>(size));
@@ -1325,7 +1355,7 @@ inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* d
     VkBufferViewCreateInfo view = {};
     view.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
     view.buffer = buffer.buffer;
-    view.format = viewFormat;
+    view.format = format;
     view.range = VK_WHOLE_SIZE;
     return check(c, c->vk.CreateBufferView(c->device, &view, nullptr, &buffer.view), "vkCreateBufferView");
 }
@@ -1335,24 +1365,23 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
         uint32_t binding;
         const void* data;
         uint64_t size;
-        VkFormat format;
     };
     const uint64_t nodeBytes = b.scene->node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
     const Part parts[] = {
-        {MINIRT_BINDING_SCENE, b.rows, sizeof *b.rows, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_NODES, b.nodes, b.node_count * nodeBytes, VK_FORMAT_R32G32B32A32_UINT},
-        {MINIRT_BINDING_PRIMITIVES, b.primitives, b.primitive_count * 48, VK_FORMAT_R32G32B32A32_SFLOAT},
-        {MINIRT_BINDING_NORMALS, b.normals, b.normal_count * 36, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_UVS, b.uvs, b.uv_count * 24, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_MATERIALS, b.materials, b.material_count * sizeof *b.materials, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_LIGHTS, b.lights, b.light_count * sizeof *b.lights, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_IMAGES, b.images, b.image_count * sizeof *b.images, VK_FORMAT_UNDEFINED},
-        {MINIRT_BINDING_TEXELS, b.texels, b.texel_count * 8, VK_FORMAT_R16G16B16A16_SFLOAT},
+        {MINIRT_BINDING_SCENE, b.rows, sizeof *b.rows},
+        {MINIRT_BINDING_NODES, b.nodes, b.node_count * nodeBytes},
+        {MINIRT_BINDING_PRIMITIVES, b.primitives, b.primitive_count * 48},
+        {MINIRT_BINDING_NORMALS, b.normals, b.normal_count * MINIRT_NORMAL_ROWS * 16},
+        {MINIRT_BINDING_UVS, b.uvs, b.uv_count * MINIRT_UV_ROWS * 16},
+        {MINIRT_BINDING_MATERIALS, b.materials, b.material_count * sizeof *b.materials},
+        {MINIRT_BINDING_LIGHTS, b.lights, b.light_count * sizeof *b.lights},
+        {MINIRT_BINDING_IMAGES, b.images, b.image_count * sizeof *b.images},
+        {MINIRT_BINDING_TEXELS, b.texels, b.texel_count * 8},
     };
     Buffer staging;
     minirt_result result = MINIRT_OK;
     for (const Part& part : parts)
-        if (!result) result = uploadPart(s, part.binding, part.data, part.size, part.format, staging);
+        if (!result) result = uploadPart(s, part.binding, part.data, part.size, staging);
     destroyBuffer(s->context, staging);
     if (result) return result;
     return createBuffer(s->context, sizeof(minirt_counters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::readBack,
@@ -1360,14 +1389,6 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
 }
 
 /* >>implementation-pipeline */
-inline bool isTexelBinding(uint32_t binding) {
-    return binding == MINIRT_BINDING_NODES || binding == MINIRT_BINDING_PRIMITIVES || binding == MINIRT_BINDING_TEXELS;
-}
-
-inline VkDescriptorType descriptorType(uint32_t binding) {
-    return isTexelBinding(binding) ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
 inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     minirt_context* c = s->context;
     VkDescriptorSetLayoutBinding entries[MINIRT_BINDING_COUNT] = {};
@@ -1394,11 +1415,13 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     layout.pPushConstantRanges = &push;
     if (minirt_result r = check(c, c->vk.CreatePipelineLayout(c->device, &layout, nullptr, &s->pipelineLayout), "vkCreatePipelineLayout")) return r;
 
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 3}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, MINIRT_BINDING_COUNT}};
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, MINIRT_BINDING_COUNT},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, MINIRT_BINDING_COUNT}};
     VkDescriptorPoolCreateInfo pool = {};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
-    pool.poolSizeCount = 2;
+    pool.poolSizeCount = 3;
     pool.pPoolSizes = sizes;
     if (minirt_result r = check(c, c->vk.CreateDescriptorPool(c->device, &pool, nullptr, &s->descriptorPool), "vkCreateDescriptorPool")) return r;
     VkDescriptorSetAllocateInfo allocate = {};
@@ -1409,13 +1432,14 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     return check(c, c->vk.AllocateDescriptorSets(c->device, &allocate, &s->descriptorSet), "vkAllocateDescriptorSets");
 }
 
-/* How a kernel is specialised for the class of the device. Some CPU drivers end all loops of a subgroup together after 65535 passes
-   without saying so; a pixel that stays below 65535 / subgroup size can never get there. */
+/* How a kernel is specialised for the class of the device. */
 struct Specialisation {
-    uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels;
+    uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels, fetchTexels;
 };
 
-inline Specialisation specialisation(const minirt_context* c, uint32_t stackLevels) {
+inline Specialisation specialisation(const minirt_scene* scene) {
+    const minirt_context* c = scene->context;
+    const uint32_t stackLevels = scene->desc.bvh_depth;
     const bool cpu = c->info.is_cpu != 0;
     Specialisation s = {};
     s.groupSize = kBlockPixels;
@@ -1423,8 +1447,10 @@ inline Specialisation specialisation(const minirt_context* c, uint32_t stackLeve
     s.stackIsShared = cpu && stackLevels * kBlockPixels * 4 <= c->limits.maxComputeSharedMemorySize;
     s.sharedStackWords = s.stackIsShared ? stackLevels * kBlockPixels : 1;
     s.privateStackWords = s.stackIsShared ? 1 : stackLevels;
-    s.stepBudget = cpu ? 65535u / c->subgroupSize - 64u : 1u << 18;
+    s.stepBudget = c->stepBudget;
     s.interleaveGroups = cpu;
+    const VkDeviceSize range = c->limits.maxStorageBufferRange;
+    s.fetchTexels = cpu || scene->buffers[MINIRT_BINDING_NODES].size > range || scene->buffers[MINIRT_BINDING_PRIMITIVES].size > range;
     return s;
 }
 
@@ -1437,7 +1463,7 @@ inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel
     VkShaderModule shader = VK_NULL_HANDLE;
     if (minirt_result r = check(c, c->vk.CreateShaderModule(c->device, &module, nullptr, &shader), "vkCreateShaderModule")) return r;
 
-    const Specialisation values = specialisation(c, s->desc.bvh_depth);
+    const Specialisation values = specialisation(s);
     static_assert(sizeof values == MINIRT_SPEC_COUNT * sizeof(uint32_t), "one word a constant, in the order of their ids");
     VkSpecializationMapEntry entries[MINIRT_SPEC_COUNT];
     for (uint32_t i = 0; i < MINIRT_SPEC_COUNT; ++i) entries[i] = {i, i * 4, 4};
@@ -1476,7 +1502,7 @@ inline minirt_result fillAbsentBuffers(minirt_scene* s, uint32_t bindings) {
     minirt_result result = MINIRT_OK;
     for (uint32_t b = 0; b < MINIRT_BINDING_FILM && !result; ++b) {
         if (!(bindings >> b & 1u) || s->buffers[b].buffer) continue;
-        result = uploadPart(s, b, zeros, sizeof zeros, isTexelBinding(b) ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_UNDEFINED, staging);
+        result = uploadPart(s, b, zeros, sizeof zeros, staging);
     }
     destroyBuffer(s->context, staging);
     return result;
@@ -1489,7 +1515,9 @@ inline void writeDescriptors(minirt_scene* s) {
     const uint32_t bindings = s->kernels[s->activeKernel].bindings;
     for (uint32_t b = 0; b < MINIRT_BINDING_COUNT; ++b) {
         if (!(bindings >> b & 1u)) continue;
-        buffers[b] = {s->buffers[b].buffer, 0, VK_WHOLE_SIZE};
+        const Buffer& buffer = s->buffers[bufferOf(b)];
+        const bool storage = descriptorType(b) == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        buffers[b] = {buffer.buffer, 0, storage ? smaller<VkDeviceSize>(buffer.size, s->context->limits.maxStorageBufferRange) : VK_WHOLE_SIZE};
         VkWriteDescriptorSet& write = writes[count++];
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = s->descriptorSet;
@@ -1497,7 +1525,7 @@ inline void writeDescriptors(minirt_scene* s) {
         write.descriptorCount = 1;
         write.descriptorType = descriptorType(b);
         write.pBufferInfo = &buffers[b];
-        write.pTexelBufferView = &s->buffers[b].view;
+        write.pTexelBufferView = &buffer.view;
     }
     s->context->vk.UpdateDescriptorSets(s->context->device, count, writes, 0, nullptr);
 }
@@ -1619,7 +1647,7 @@ inline void setFrame(minirt_job* job) {
     const minirt_region& region = d.region;
     job->frame.size = {d.width, d.height, job->scene->kernels[job->scene->activeKernel].waits ? d.max_depth : 0, 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
-    job->frame.blocks = {0, (region.width + 7) / 8, 0, job->stateBlocks * kBlockPixels};
+    job->frame.blocks = {0, (region.width + 7) / 8, 0, stateWords(job)};
     job->frame.sampling = {d.first_sample, 0, d.max_depth, 0};
 }
 

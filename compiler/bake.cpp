@@ -40,6 +40,15 @@ void writeStats(const std::string& path, const Geometry& geometry, const Bvh& bv
     writeFile(path, text.data(), text.size());
 }
 
+/// Finds before the work what would keep its result from being written.
+void checkOutputs(const BakeOptions& options) {
+    requireWritable(options.output);
+    if (!options.statsFile.empty()) requireWritable(options.statsFile);
+    std::error_code absent;
+    if (std::filesystem::equivalent(options.scene, options.output, absent))
+        throw Error({options.output}, "is the scene itself", "name another file with -o");
+}
+
 std::string megabytes(size_t bytes) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f MB", static_cast<double>(bytes) * 1e-6);
@@ -50,6 +59,7 @@ std::string megabytes(size_t bytes) {
 
 int bake(const BakeOptions& options) {
     const double start = nowMs();
+    checkOutputs(options);
     Diagnostics diagnostics;
     const Scene scene = loadScene(options.scene, diagnostics);
     const Geometry geometry = flatten(scene, diagnostics);

@@ -106,7 +106,7 @@ minirt_scene_rows encodeRows(const Scene& scene, const EncodedNodes& nodes, cons
     rows.gridScale = vec4(nodes.gridScale);
     rows.gridPlanes = vec4(nodes.gridPlanes);
     const bool image = scene.background.image != kNone;
-    rows.background = vec4(image ? glm::vec3(scene.background.strength) : scene.background.color * scene.background.strength,
+    rows.background = vec4(image ? glm::vec3(scene.background.strength) : scene.background.color,
                            scene.background.rotation / 360.0f);
     rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.place(scene.background.image), 0, 0};
     return rows;
@@ -229,11 +229,13 @@ void addImages(BlobWriter& writer, const Scene& scene, const ImagePlan& plan) {
 }
 
 void addCorners(BlobWriter& writer, const Geometry& geometry, const EffectSet& effects) {
-    std::vector<float> normals;
-    std::vector<float> uvs;
+    std::vector<minirt_vec4> normals;
+    std::vector<minirt_vec4> uvs;
     for (const CornerAttributes& corners : geometry.corners) {
-        for (const glm::vec3& n : corners.normals) normals.insert(normals.end(), {n.x, n.y, n.z});
-        for (const glm::vec2& uv : corners.uvs) uvs.insert(uvs.end(), {uv.x, uv.y});
+        for (const glm::vec3& n : corners.normals) normals.push_back(vec4(n));
+        const auto& uv = corners.uvs;
+        uvs.push_back({uv[0].x, uv[0].y, uv[1].x, uv[1].y});
+        uvs.push_back({uv[2].x, uv[2].y, 0, 0});
     }
     if (effects.has(Effect::smoothNormals)) writer.add("NORMALS", normals);
     if (effects.has(Effect::textures)) writer.add("UVS", uvs);

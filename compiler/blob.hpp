@@ -39,4 +39,7 @@ std::vector<uint8_t> assembleBlob(const Scene& scene, const Geometry& geometry, 
 /// Writes a file whole or not at all: a temporary file beside it, synced, renamed. Throws Error.
 void writeFile(const std::filesystem::path& path, const void* data, size_t size);
 
+/// Throws the Error that writeFile would, where that can be known before the work is done: no such folder, or a folder itself.
+void requireWritable(const std::filesystem::path& path);
+
 }  // namespace minirtc

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <new>
+#include <type_traits>
 
 #include "bvh_split.hpp"
 #include "parallel.hpp"
@@ -13,6 +16,24 @@ namespace {
 constexpr uint32_t kChunkSize = 8192;     // primitives that a thread takes at once
 constexpr uint32_t kMinTaskSize = 1024;   // a smaller subtree is not worth a task of its own
 constexpr uint32_t kTasksPerThread = 16;  // so that tasks of unequal cost still end together
+
+/// Room for elements that begin to live when they are written: its pages are first touched by the thread that needs them.
+template <typename T>
+class Room {
+public:
+    explicit Room(size_t size) : size_(size), data_(std::allocator<T>().allocate(size)) {}
+    ~Room() { std::allocator<T>().deallocate(data_, size_); }
+    Room(const Room&) = delete;
+    Room& operator=(const Room&) = delete;
+    T* data() { return data_; }
+    const T& operator[](size_t i) const { return data_[i]; }
+    T& begin(size_t i) { return *new (&data_[i]) T; }
+
+private:
+    static_assert(std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>);
+    size_t size_;
+    T* data_;
+};
 
 /// A subtree to build over the slots [first, first + range.size) of the leaf order. It may use the nodes [node, node +
 /// range.size - 1), as many as it can need, so that subtrees are built without a word to one another.
@@ -42,8 +63,8 @@ private:
     const uint32_t size_;
     ThreadPool pool_;
     const uint32_t taskSize_;
-    std::vector<Ref> refs_, spare_;
-    std::vector<BvhNode> nodes_;
+    Room<Ref> refs_, spare_;
+    Room<BvhNode> nodes_;
     std::vector<uint8_t> used_;  // of nodes_
     std::vector<uint32_t> order_;
     std::vector<Subtree> tasks_;
@@ -84,7 +105,7 @@ Bvh Builder::build() {
     std::vector<Box> boxes(chunks(size_), Box::empty());
     pool_.parallelFor(boxes.size(), [&](size_t chunk) {
         for (uint32_t i = static_cast<uint32_t>(chunk) * kChunkSize; i < chunkEnd(size_, chunk); ++i) {
-            refs_[i] = Ref(bounds(geometry_.primitives[i]), i);
+            refs_.begin(i) = Ref(bounds(geometry_.primitives[i]), i);
             boxes[chunk].grow(refs_[i]);
         }
     });
@@ -181,7 +202,7 @@ void Builder::collapse(const Subtree& subtree) {
 }
 
 void Builder::makeNode(const Subtree& subtree, const Halves& halves, Subtree (&children)[2]) {
-    BvhNode& node = nodes_[subtree.node];
+    BvhNode& node = nodes_.begin(subtree.node);
     const uint32_t n = halves.half[0].size;
     children[0] = {halves.half[0], subtree.first, subtree.node + 1, subtree.levels - 1, &node.child[0]};
     children[1] = {halves.half[1], subtree.first + n, subtree.node + n, subtree.levels - 1, &node.child[1]};

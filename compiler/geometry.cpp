@@ -42,7 +42,10 @@ glm::dmat3 rotation(const glm::dvec3& degrees) {
 /// A Transform ready to apply.
 struct Placement {
     explicit Placement(const Transform& t)
-        : rotate(rotation(t.rotate)), scale(t.scale), translate(t.translate), mirrored(t.scale.x * t.scale.y * t.scale.z < 0) {}
+        : rotate(rotation(t.rotate)),
+          scale(t.scale),
+          translate(t.translate),
+          mirrored((t.scale.x < 0) != ((t.scale.y < 0) != (t.scale.z < 0))) {}
 
     glm::dvec3 point(const glm::dvec3& p) const { return rotate * (scale * p) + translate; }
     /// By the inverse transpose; not normalised. Scaled by the largest factor against overflow.
@@ -158,7 +161,7 @@ private:
     // Second pass: primitives relative to the origin.
 
     void add(const Object& object) {
-        smallest_ = kNone, dropped_ = 0, seen_ = 0;
+        lostInRounding_ = false, dropped_ = 0, seen_ = 0;
         for (size_t i = 0; i < object.instances.size(); ++i) {
             const bool several = object.instances.size() > 1;
             out_.objectNames.push_back(object.name + (several ? "[" + std::to_string(i) + "]" : ""));
@@ -278,9 +281,7 @@ private:
         return bent;
     }
 
-    void noteSize(double size, float distance) {
-        if (smallest_ == kNone && isLostInRounding(size, distance)) smallest_ = static_cast<uint32_t>(out_.primitives.size());
-    }
+    void noteSize(double size, float distance) { lostInRounding_ = lostInRounding_ || isLostInRounding(size, distance); }
 
     void warn(const Object& object) {
         out_.degenerateTriangles += dropped_;
@@ -289,7 +290,7 @@ private:
                 object.location,
                 std::to_string(dropped_) + " of " + std::to_string(seen_) + " triangles of " + object.name + " have no area",
                 "they are left out");
-        if (smallest_ != kNone)
+        if (lostInRounding_)
             diagnostics_.warn(object.location,
                               object.name + " has features under 64 float steps at their distance from the scene's centre",
                               "move the scene's parts closer together or make the features larger");
@@ -315,7 +316,7 @@ private:
     std::vector<glm::dvec3> world_;  // of the mesh instance at hand
     std::vector<glm::vec3> local_;   // the same in float, relative to the origin
     // Of the object at hand:
-    uint32_t smallest_ = kNone;  // its first primitive that is lost in rounding
+    bool lostInRounding_ = false;
     uint64_t dropped_ = 0;
     uint64_t seen_ = 0;
 };

@@ -85,28 +85,77 @@ Image fromBytes(const unsigned char* rgba, int width, int height, ColorSpace spa
     return image;
 }
 
-Image decodeExr(const std::filesystem::path& path, const Bytes& bytes) {
-    EXRVersion version;
-    EXRHeader header;
-    InitEXRHeader(&header);
-    const char* message = nullptr;
-    int code = ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size());
-    if (code == TINYEXR_SUCCESS) code = ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &message);
-    const auto fail = [&] {
-        const std::string reason = message ? message : "damaged EXR file";
-        FreeEXRErrorMessage(message);
-        failUndecodable(path, reason.substr(0, reason.find('\n')));
-    };
-    if (code != TINYEXR_SUCCESS) fail();
-    const EXRBox2i window = header.data_window;
-    FreeEXRHeader(&header);
-    requireSize(path, int64_t{window.max_x} - window.min_x + 1, int64_t{window.max_y} - window.min_y + 1);
+/// A file being read by tinyexr, whose one-call readers leak where a file is damaged.
+struct Exr {
+    Exr() { InitEXRHeader(&header), InitEXRImage(&image); }
+    ~Exr() { FreeEXRImage(&image), FreeEXRHeader(&header), FreeEXRErrorMessage(message); }
+    Exr(const Exr&) = delete;
+    Exr& operator=(const Exr&) = delete;
 
-    float* rgba = nullptr;
-    int width = 0, height = 0;
-    if (LoadEXRFromMemory(&rgba, &width, &height, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) fail();
-    const Malloced<float> owner(rgba);
-    return fromFloats(rgba, width, height);
+    std::string reason() const {
+        const std::string text = message ? message : "damaged EXR file";
+        return text.substr(0, text.find('\n'));
+    }
+
+    EXRVersion version = {};
+    EXRHeader header;
+    EXRImage image;
+    const char* message = nullptr;
+};
+
+/// The channels that give red, green, blue and alpha; -1: alpha is 1. A single channel gives grey.
+std::array<int, 4> findChannels(const std::filesystem::path& path, const EXRHeader& header) {
+    static const std::string kNames = "RGBA";
+    std::array<int, 4> found = {-1, -1, -1, -1};
+    for (int c = 0; c < header.num_channels; ++c) {
+        const std::string name = header.channels[c].name;
+        if (name.size() == 1 && kNames.find(name) != std::string::npos) found[kNames.find(name)] = c;
+    }
+    if (header.num_channels == 1) found = {0, 0, 0, -1};
+    if (found[0] < 0 || found[1] < 0 || found[2] < 0) failUndecodable(path, "it has no channels R, G and B");
+    for (int c = 0; c < header.num_channels; ++c)
+        if (header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT) failUndecodable(path, "its channels are integers");
+    return found;
+}
+
+void copyExrBlock(unsigned char** planes, const std::array<int, 4>& channels, int stride, int left, int top, int width,
+                  int height, Image& image) {
+    for (int y = 0; y < height && top + y < static_cast<int>(image.height); ++y) {
+        for (int x = 0; x < width && left + x < static_cast<int>(image.width); ++x) {
+            glm::vec4& texel = image.texels[static_cast<size_t>(top + y) * image.width + left + x];
+            for (int c = 0; c < 4; ++c)
+                texel[c] =
+                    channels[c] < 0 ? 1.0f : reinterpret_cast<float**>(planes)[channels[c]][static_cast<size_t>(y) * stride + x];
+        }
+    }
+}
+
+Image decodeExr(const std::filesystem::path& path, const Bytes& bytes) {
+    Exr exr;
+    if (ParseEXRVersionFromMemory(&exr.version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS ||
+        ParseEXRHeaderFromMemory(&exr.header, &exr.version, bytes.data(), bytes.size(), &exr.message) != TINYEXR_SUCCESS)
+        failUndecodable(path, exr.reason());
+    if (exr.version.multipart || exr.version.non_image)
+        failUndecodable(path, "EXR files with several parts or deep pixels are not read");
+    const EXRBox2i window = exr.header.data_window;
+    requireSize(path, int64_t{window.max_x} - window.min_x + 1, int64_t{window.max_y} - window.min_y + 1);
+    const std::array<int, 4> channels = findChannels(path, exr.header);
+    for (int c = 0; c < exr.header.num_channels; ++c) exr.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
+    if (LoadEXRImageFromMemory(&exr.image, &exr.header, bytes.data(), bytes.size(), &exr.message) != TINYEXR_SUCCESS) {
+        InitEXRImage(&exr.image);  // after a failure its pointers are to freed memory
+        failUndecodable(path, exr.reason());
+    }
+
+    Image image = makeImage(exr.image.width, exr.image.height);
+    if (exr.image.images)
+        copyExrBlock(exr.image.images, channels, exr.image.width, 0, 0, exr.image.width, exr.image.height, image);
+    for (int i = 0; i < exr.image.num_tiles; ++i) {
+        const EXRTile& tile = exr.image.tiles[i];
+        if (tile.level_x != 0 || tile.level_y != 0) continue;
+        copyExrBlock(tile.images, channels, exr.header.tile_size_x, tile.offset_x * exr.header.tile_size_x,
+                     tile.offset_y * exr.header.tile_size_y, tile.width, tile.height, image);
+    }
+    return image;
 }
 
 Image decode(const std::filesystem::path& path, const Bytes& bytes, ColorSpace space) {

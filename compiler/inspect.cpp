@@ -14,7 +14,9 @@ namespace {
 std::vector<uint8_t> readFile(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file || std::filesystem::is_directory(path)) throw Error({path}, "cannot be opened", "does the file exist?");
-    return {std::istreambuf_iterator<char>(file), {}};
+    std::vector<uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
+    if (bytes.empty()) throw Error({path}, "is empty", "bake the scene again");
+    return bytes;
 }
 
 /// The parts of a valid blob; `bytes` must outlive them.
@@ -22,7 +24,9 @@ minirt_blob open(const std::string& path, const std::vector<uint8_t>& bytes) {
     minirt_blob blob;
     minirt_validation validation;
     const minirt_result result = minirt_validate(bytes.data(), bytes.size(), &blob, &validation);
-    if (result) throw Error({path}, std::string(minirt_result_string(result)) + ": " + validation.message, "");
+    const bool saysWhatToDo = std::strchr(validation.message, ';');
+    if (result)
+        throw Error({path}, validation.message, saysWhatToDo ? "" : "bake a scene with: minirtc bake SCENE.json -o SCENE.mrt");
     return blob;
 }
 

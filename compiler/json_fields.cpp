@@ -137,7 +137,7 @@ std::string JsonObject::word(const std::string& key, const std::string& fallback
 
 std::filesystem::path JsonObject::file(const std::string& key) const {
     const std::string& name = text(key);
-    const std::filesystem::path path = (file_.folder / std::filesystem::u8path(name)).lexically_normal();
+    std::filesystem::path path = (file_.folder / std::filesystem::u8path(name)).lexically_normal();
     std::error_code code;
     if (std::filesystem::is_regular_file(path, code)) return path;
     const bool folder = std::filesystem::is_directory(path, code);

@@ -85,6 +85,7 @@ public:
 private:
     void rejectDuplicates(const std::vector<JsonMember>& members) const {
         std::vector<const JsonMember*> sorted;
+        sorted.reserve(members.size());
         for (const JsonMember& member : members) sorted.push_back(&member);
         const auto byKey = [](const JsonMember* a, const JsonMember* b) { return a->key < b->key; };
         std::stable_sort(sorted.begin(), sorted.end(), byKey);

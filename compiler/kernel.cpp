@@ -26,7 +26,7 @@ const std::vector<std::string> kParts = {
     "common/patterns.glsl",    "bsdf/optics.glsl",
     "traverse/box.glsl",       "traverse/triangle.glsl",
     "traverse/sphere.glsl",    "layout",
-    "common/frame.glsl",       "traverse/nodes.glsl",
+    "common/frame.glsl",       "common/fetch.glsl", "traverse/nodes.glsl",
     "effects/spheres.glsl",    "traverse/traverse.glsl",
     "common/suspend.glsl",     "effects/images.glsl",
     "effects/background.glsl", "effects/smooth_normals.glsl",

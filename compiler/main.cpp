@@ -8,6 +8,18 @@ namespace {
 
 using namespace minirtc;
 
+const std::map<std::string, LayoutChoice>& layouts() {
+    static const std::map<std::string, LayoutChoice> names = {
+        {"auto", LayoutChoice::automatic}, {"quantised", LayoutChoice::quantised}, {"float", LayoutChoice::floating}};
+    return names;
+}
+
+std::string oneLineFailure(const CLI::App* app, const CLI::Error& error) {
+    for (const CLI::App* subcommand : app->get_subcommands()) app = subcommand;
+    const std::string command = app->get_parent() ? app->get_parent()->get_name() + " " + app->get_name() : app->get_name();
+    return command + ": " + error.what() + "; see " + command + " --help\n";
+}
+
 void addBake(CLI::App& app, BakeOptions& options) {
     CLI::App* bake = app.add_subcommand("bake", "Bake a scene file into a blob");
     bake->footer("Examples:\n  minirtc bake still_life.json -o still_life.mrt\n  minirtc bake still_life.json -o still_life.mrt --explain");
@@ -15,10 +27,12 @@ void addBake(CLI::App& app, BakeOptions& options) {
     bake->add_option("-o,--output", options.output, "Blob to write (.mrt)")->required();
     bake->add_flag("--explain", options.explain, "Print each effect, in or out of the kernels, and why");
     bake->add_flag("--all-effects", options.allEffects, "Compile every effect into the kernels, called for or not");
-    const std::map<std::string, LayoutChoice> layouts = {
-        {"auto", LayoutChoice::automatic}, {"quantised", LayoutChoice::quantised}, {"float", LayoutChoice::floating}};
-    bake->add_option("--layout", options.layout, "Boxes of the hierarchy: auto, quantised or float")->transform(CLI::CheckedTransformer(layouts));
-    bake->add_option("--threads", options.threads, "Threads (default: all cores); the blob does not depend on it");
+    bake->add_option_function<std::string>(
+            "--layout", [&](const std::string& name) { options.layout = layouts().at(name); },
+            "Boxes of the hierarchy (default: auto)")
+        ->check(CLI::IsMember(layouts()));
+    bake->add_option("--threads", options.threads, "Threads (default: all cores); the blob does not depend on it")
+        ->check(CLI::Range(1u, 1024u));
     bake->add_option("--save-glsl", options.saveGlslDir, "Folder for the kernels' GLSL");
     bake->add_option("--stats", options.statsFile, "Write figures as JSON");
     bake->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
@@ -36,6 +50,8 @@ void addInspect(CLI::App& app, InspectOptions& options) {
 
 int main(int argc, char** argv) {
     CLI::App app("minirtc bakes scenes into blobs that minirt.h renders on any Vulkan device", "minirtc");
+    app.footer("Example:\n  minirtc bake still_life.json -o still_life.mrt");
+    app.failure_message(oneLineFailure);
     app.require_subcommand(1);
     BakeOptions bakeOptions;
     InspectOptions inspectOptions;
@@ -46,6 +62,7 @@ int main(int argc, char** argv) {
     validate->footer("Example:\n  minirtc validate still_life.mrt");
     validate->add_option("blob", blob, "Blob (.mrt)")->required();
     CLI::App* devices = app.add_subcommand("devices", "List the Vulkan devices, best first");
+    devices->footer("Example:\n  minirtc devices");
     CLI11_PARSE(app, argc, argv);
     try {
         if (app.got_subcommand("bake")) return bake(bakeOptions);

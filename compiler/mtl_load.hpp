@@ -1,24 +1,23 @@
 // Wavefront .mtl material libraries.
 #pragma once
+#include <tiny_obj_loader.h>
+
 #include <optional>
 
 #include "scene.hpp"
 
 namespace minirtc {
 
-/// What a library says of one material; a key that it does not give is empty.
+/// A material of a library. `values` has no name; -1 stands for Kd, Pr and Pm where the library does not give them, 2 for illum.
 struct MtlMaterial {
     std::string name;
-    SourceLocation location;  // of its newmtl
-    std::optional<glm::dvec3> Kd, Ks, Tf, Ke;
-    std::optional<double> Ns, Ni, d, Pr, Pm;
-    std::optional<int> illum;
-    std::string mapKd;  // path as written
-    SourceLocation mapLocation;
+    tinyobj::material_t values;
+    SourceLocation location;     // of its newmtl
+    SourceLocation mapLocation;  // of its map_Kd
 };
 
 /// Reads a library. Throws Error where a number of a key that counts is no number, negative or out of range.
-std::vector<MtlMaterial> readMtl(const std::filesystem::path& path, Diagnostics& diagnostics);
+std::vector<MtlMaterial> readMtl(const std::filesystem::path& path);
 
 /// The table of docs/scene_format.md. A texture that cannot be read is left out with a warning.
 Material toMaterial(const MtlMaterial& mtl, Scene& scene, Diagnostics& diagnostics);

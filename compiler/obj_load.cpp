@@ -1,5 +1,5 @@
-// Wavefront .obj meshes. The reader is the project's own: it names the line of what it cannot read and keeps each face's line,
-// faces have any number of corners, and numbers are rounded correctly.
+// Wavefront .obj meshes. tinyobjloader reads them; what stands here checks the lines that it would misread in silence, splits
+// the faces and finds the materials.
 #include <algorithm>
 #include <cfloat>
 #include <charconv>
@@ -15,14 +15,9 @@
 namespace minirtc {
 namespace {
 
-/// A usemtl name, in the order of first use, and where that is.
-struct MaterialUse {
-    std::string name;
-    int line = 0;
-};
-
-struct MaterialLibrary {
-    std::string names;  // the rest of a mtllib line
+/// What stands after a usemtl (in the order of first use) or a mtllib, and where.
+struct Name {
+    std::string text;
     int line = 0;
 };
 
@@ -31,100 +26,74 @@ public:
     ObjReader(const std::filesystem::path& path, Mesh& mesh) : path_(path.string()), mesh_(mesh) {}
 
     void read(std::string_view text) {
-        for (LineReader lines(text); lines.next();) {
+        RewrittenLines lines(text, [&](std::string_view line, std::string& out) {
             line_ = lines.number();
-            readLine(lines.line());
-        }
+            rewrite(line, out);
+        });
+        tinyobj::callback_t callbacks;
+        callbacks.vertex_cb = [](void* self, double x, double y, double z, double) {
+            to(self).mesh_.positions.emplace_back(x, y, z);
+        };
+        callbacks.normal_cb = [](void* self, double x, double y, double z) { to(self).addNormal({x, y, z}); };
+        callbacks.texcoord_cb = [](void* self, double u, double v, double) { to(self).addUv(u, v); };
+        callbacks.index_cb = [](void* self, tinyobj::index_t* corners, int count) { to(self).addFace(corners, count); };
+        callbacks.usemtl_cb = [](void* self, const char* name, int) { to(self).use(name); };
+        tinyobj::LoadObjWithCallback(lines, callbacks, this);
         if (polygons_.empty()) throw Error({path_}, "the mesh has no faces", "an OBJ file needs lines such as 'f 1 2 3'");
-        checkIndices();
         splitPolygons();
     }
 
     // Face::material counts in uses() while reading; kNone before the first usemtl.
-    const std::vector<MaterialUse>& uses() const { return uses_; }
-    const std::vector<MaterialLibrary>& libraries() const { return libraries_; }
+    const std::vector<Name>& uses() const { return uses_; }
+    const std::vector<Name>& libraries() const { return libraries_; }
 
 private:
-    void readLine(std::string_view line) {
-        const std::string_view key = takeWord(line);
-        if (key == "v") {
-            mesh_.positions.push_back(takeVector(line));
-            rejectRest(line, "v");
-        } else if (key == "vn") {
-            mesh_.normals.push_back(direction(takeVector(line)));
-            rejectRest(line, "vn");
-        } else if (key == "vt") {
-            readUv(line);
-        } else if (key == "f" || key == "fo") {
-            readFace(line);
-        } else if (key == "usemtl") {
-            readUse(std::string(trim(line)));
-        } else if (key == "mtllib") {
-            libraries_.push_back({std::string(trim(line)), line_});
-        }
-    }
+    static ObjReader& to(void* self) { return *static_cast<ObjReader*>(self); }
 
     [[noreturn]] void fail(const std::string& message, const std::string& hint) const {
         throw Error({path_, line_}, message, hint);
     }
 
-    double toNumber(std::string_view word) const {
-        const std::optional<double> number = parseFinite(word);
-        if (!number) fail(inQuotes(word) + " is not a finite number", "repair the line");
-        return *number;
+    // The lines as tinyobjloader needs them: it knows no comment after numbers and takes 0 for what it cannot read. Blanks and
+    // backslashes in the names of libraries are beyond it: those stay here.
+
+    void rewrite(std::string_view line, std::string& out) {
+        const std::string_view key = takeWord(line);
+        if (key == "v" || key == "vn")
+            rewriteNumbers(key, line, "xyz", out);
+        else if (key == "vt")
+            rewriteNumbers(key, line, "u", out);
+        else if (key == "f" || key == "fo")
+            rewriteFace(line, out);
+        else if (key == "usemtl")
+            out.append("usemtl ").append(trim(line));
+        else if (key == "mtllib")
+            libraries_.push_back({std::string(trim(line)), line_});
     }
 
-    double take(std::string_view& line, const char* what) const {
-        const std::string_view word = takeValue(line);
-        if (word.empty()) fail(std::string("the line ends before its ") + what, "give three numbers");
-        return toNumber(word);
-    }
-
-    glm::dvec3 takeVector(std::string_view& line) const {
-        return {take(line, "x"), take(line, "y"), take(line, "z")};  // braces: evaluated in this order
-    }
-
-    /// Unit length, whatever the file's; zero stays zero.
-    static glm::vec3 direction(const glm::dvec3& n) {
-        const double largest = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
-        return largest == 0 ? glm::vec3(0) : glm::vec3(glm::normalize(n / largest));
-    }
-
-    /// Weights and vertex colours, which are not used, must be numbers all the same.
-    void rejectRest(std::string_view line, const char* key) const {
-        constexpr int kMost = 5;  // x y z w, x y z r g b and x y z r g b a are in use
-        int count = 0;
-        for (std::string_view word = takeValue(line); !word.empty(); word = takeValue(line)) {
-            toNumber(word);
-            if (++count == kMost) fail(std::string("too many numbers after ") + key, "a line break may be missing");
+    /// As many numbers as `needed` names; up to four more are let through, for weights and vertex colours.
+    void rewriteNumbers(std::string_view key, std::string_view values, std::string_view needed, std::string& out) const {
+        out += key;
+        size_t count = 0;
+        for (std::string_view word = takeValue(values); !word.empty(); word = takeValue(values)) {
+            if (!appendNumber(out, word)) fail(inQuotes(word) + " is not a finite number", "repair the line");
+            if (count++ == needed.size() + 4) fail("too many numbers after " + std::string(key), "a line break may be missing");
         }
+        if (count < needed.size()) fail(std::string("the line ends before its ") + needed[count], "give three numbers");
     }
 
-    /// Row 0 of an image is at v = 1.
-    void readUv(std::string_view line) {
-        const double u = take(line, "u");
-        const std::string_view word = takeValue(line);
-        const double v = word.empty() ? 0 : toNumber(word);
-        rejectRest(line, "vt");
-        if (std::fabs(u) > FLT_MAX || std::fabs(v) > FLT_MAX) fail("a texture coordinate is too large", "repair the line");
-        mesh_.uvs.push_back(glm::vec2(u, 1 - v));
-    }
-
-    void readUse(std::string name) {
-        const auto [found, isNew] = useIndex_.try_emplace(name, static_cast<uint32_t>(uses_.size()));
-        if (isNew) uses_.push_back({std::move(name), line_});
-        material_ = found->second;
-    }
-
-    void readFace(std::string_view line) {
-        polygons_.push_back({corners_.size(), material_, line_});
-        for (std::string_view word = takeValue(line); !word.empty(); word = takeValue(line)) corners_.push_back(readCorner(word));
-        const size_t size = corners_.size() - polygons_.back().first;
-        if (size < 3) fail("the face has " + std::to_string(size) + " corners", "a face needs at least 3");
+    void rewriteFace(std::string_view line, std::string& out) const {
+        out += "f";
+        size_t count = 0;
+        for (std::string_view word = takeValue(line); !word.empty(); word = takeValue(line), ++count) {
+            checkCorner(word);
+            out.append(" ").append(word.substr(0, word.find_last_not_of('/') + 1));  // tinyobjloader reads 1/ 2 as 1/2 2
+        }
+        if (count < 3) fail("the face has " + std::to_string(count) + " corners", "a face needs at least 3");
     }
 
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-    Corner readCorner(std::string_view word) const {
+    void checkCorner(std::string_view word) const {
         const std::string_view whole = word;
         const auto takePart = [&] {
             const size_t slash = word.find('/');
@@ -134,56 +103,75 @@ private:
         };
         const std::string_view v = takePart(), vt = takePart(), vn = takePart();
         if (!word.empty() || v.empty()) fail(inQuotes(whole) + " is no corner of a face", "write v, v/vt, v//vn or v/vt/vn");
-        Corner corner;
-        corner.position = readIndex(v, mesh_.positions.size(), "v");
-        if (!vt.empty()) corner.uv = readIndex(vt, mesh_.uvs.size(), "vt");
-        if (!vn.empty()) corner.normal = readIndex(vn, mesh_.normals.size(), "vn");
-        return corner;
+        checkIndex(v, mesh_.positions.size(), "v");
+        if (!vt.empty()) checkIndex(vt, mesh_.uvs.size(), "vt");
+        if (!vn.empty()) checkIndex(vn, mesh_.normals.size(), "vn");
     }
 
     /// From 1 on, or from -1 back from the last; `count` lines stand above. Forward references are checked at the end.
-    uint32_t readIndex(std::string_view text, size_t count, const char* key) const {
-        int64_t index = 0;
-        const std::string_view digits = text.substr(text.front() == '+' ? 1 : 0);
+    void checkIndex(std::string_view text, size_t count, const char* key) const {
+        int index = 0;
+        const std::string_view digits = skipPlus(text);
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
         if (end != digits.data() + digits.size() || error == std::errc::invalid_argument)
             fail(inQuotes(text) + " is not an index", "write whole numbers, such as f 1 2 3");
-        const int64_t absolute = index < 0 ? static_cast<int64_t>(count) + index : index - 1;
-        if (error != std::errc{} || index == 0 || absolute < 0 || absolute >= int64_t{kNone})
+        if (error != std::errc{} || index == 0 || static_cast<int64_t>(count) + index < 0)
             fail("the " + std::string(key) + " index " + std::string(text) + " is out of range",
                  "indices count from 1, or from -1 backwards; " + std::to_string(count) + " " + key + " lines stand above");
-        return static_cast<uint32_t>(absolute);
     }
 
-    size_t endOf(size_t polygon) const { return polygon + 1 < polygons_.size() ? polygons_[polygon + 1].first : corners_.size(); }
+    // What tinyobjloader reads, a line at a time.
 
-    void checkIndices() {
-        const auto check = [&](uint32_t index, size_t count, const char* key) {
-            if (index == kNone || index < count) return;
-            fail("the " + std::string(key) + " index " + std::to_string(index + 1) + " is out of range",
-                 "the file has " + std::to_string(count) + " " + key + " lines");
-        };
-        for (size_t i = 0; i < polygons_.size(); ++i) {
-            line_ = polygons_[i].line;
-            for (size_t c = polygons_[i].first; c < endOf(i); ++c) {
-                check(corners_[c].position, mesh_.positions.size(), "v");
-                check(corners_[c].uv, mesh_.uvs.size(), "vt");
-                check(corners_[c].normal, mesh_.normals.size(), "vn");
-            }
-        }
+    /// Unit length, whatever the file's; zero stays zero.
+    void addNormal(const glm::dvec3& n) {
+        const double largest = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
+        mesh_.normals.push_back(largest == 0 ? glm::vec3(0) : glm::vec3(glm::normalize(n / largest)));
+    }
+
+    /// Row 0 of an image is at v = 1.
+    void addUv(double u, double v) {
+        if (std::fabs(u) > FLT_MAX || std::fabs(v) > FLT_MAX) fail("a texture coordinate is too large", "repair the line");
+        mesh_.uvs.push_back(glm::vec2(u, 1 - v));
+    }
+
+    void use(std::string name) {
+        const auto [found, isNew] = useIndex_.try_emplace(name, static_cast<uint32_t>(uses_.size()));
+        if (isNew) uses_.push_back({std::move(name), line_});
+        material_ = found->second;
+    }
+
+    void addFace(const tinyobj::index_t* corners, int count) {
+        polygons_.push_back({corners_.size(), count, material_, line_});
+        for (int i = 0; i < count; ++i)
+            corners_.push_back({fromFile(corners[i].vertex_index, mesh_.positions.size()),
+                                fromFile(corners[i].normal_index, mesh_.normals.size()),
+                                fromFile(corners[i].texcoord_index, mesh_.uvs.size())});
+    }
+
+    /// From 0 on; 0 in the file, which tinyobjloader gives for what is not there, becomes kNone.
+    static uint32_t fromFile(int index, size_t count) { return static_cast<uint32_t>(index < 0 ? count + index : index - 1); }
+
+    void checkExists(uint32_t index, size_t count, const char* key) const {
+        if (index == kNone || index < count) return;
+        fail("the " + std::string(key) + " index " + std::to_string(index + 1) + " is out of range",
+             "the file has " + std::to_string(count) + " " + key + " lines");
     }
 
     void splitPolygons() {
         mesh_.faces.reserve(corners_.size() - 2 * polygons_.size());
         std::vector<glm::dvec3> points;
         std::vector<TriangleIndices> triangles;
-        for (size_t i = 0; i < polygons_.size(); ++i) {
-            const Polygon& polygon = polygons_[i];
+        for (const Polygon& polygon : polygons_) {
             const Corner* corners = &corners_[polygon.first];
             points.clear();
             triangles.clear();
-            for (size_t c = polygon.first; c < endOf(i); ++c) points.push_back(mesh_.positions[corners_[c].position]);
             line_ = polygon.line;
+            for (const Corner* c = corners; c != corners + polygon.size; ++c) {
+                checkExists(c->position, mesh_.positions.size(), "v");
+                checkExists(c->uv, mesh_.uvs.size(), "vt");
+                checkExists(c->normal, mesh_.normals.size(), "vn");
+                points.push_back(mesh_.positions[c->position]);
+            }
             if (!triangulate(points, triangles))
                 fail("the face is concave and has " + std::to_string(points.size()) + " corners", "split it into smaller faces");
             for (const TriangleIndices& t : triangles)
@@ -191,9 +179,10 @@ private:
         }
     }
 
-    /// A face as written; its corners reach to the next one's first.
+    /// A face as written.
     struct Polygon {
         size_t first;  // in corners_
+        int size;
         uint32_t material;
         int line;
     };
@@ -202,9 +191,9 @@ private:
     Mesh& mesh_;
     int line_ = 0;
     uint32_t material_ = kNone;
-    std::vector<MaterialUse> uses_;
+    std::vector<Name> uses_;
     std::unordered_map<std::string, uint32_t> useIndex_;
-    std::vector<MaterialLibrary> libraries_;
+    std::vector<Name> libraries_;
     std::vector<Corner> corners_;
     std::vector<Polygon> polygons_;
 };
@@ -228,19 +217,17 @@ std::vector<std::string> splitNames(const std::filesystem::path& folder, const s
 
 using MtlByName = std::unordered_map<std::string, MtlMaterial>;
 
-MtlByName readLibraries(const std::filesystem::path& path, const std::vector<MaterialLibrary>& libraries,
-                        Diagnostics& diagnostics) {
+MtlByName readLibraries(const std::filesystem::path& path, const std::vector<Name>& libraries, Diagnostics& diagnostics) {
     MtlByName materials;
-    for (const MaterialLibrary& library : libraries) {
+    for (const Name& library : libraries) {
         std::string missing;
         bool found = false;
-        for (const std::string& name : splitNames(path.parent_path(), library.names)) {
+        for (const std::string& name : splitNames(path.parent_path(), library.text)) {
             const auto file = findBeside(path.parent_path(), name);
             found = found || file;
             if (!file) missing += (missing.empty() ? " " : ", ") + inQuotes(name);
             if (file)
-                for (MtlMaterial& material : readMtl(*file, diagnostics))
-                    materials.try_emplace(material.name, std::move(material));
+                for (MtlMaterial& material : readMtl(*file)) materials.try_emplace(material.name, std::move(material));
         }
         // Several names are alternatives in the wild: where one is there, the others are not missed.
         if (!found)
@@ -248,15 +235,6 @@ MtlByName readLibraries(const std::filesystem::path& path, const std::vector<Mat
                              "its materials become mid-grey");
     }
     return materials;
-}
-
-/// Stands in for a material that is not there: a Lambert surface of half reflectance.
-uint32_t addMidGrey(Scene& scene) {
-    Material grey;
-    grey.name = "mid-grey";
-    grey.diffuse = glm::vec3(0.5f);
-    scene.materials.push_back(grey);
-    return static_cast<uint32_t>(scene.materials.size() - 1);
 }
 
 class MaterialBinder {
@@ -284,29 +262,32 @@ public:
     }
 
 private:
-    uint32_t find(const MaterialUse& use) {
-        const auto found = library_.find(use.name);
-        if (found == library_.end()) {
-            std::vector<std::string> known;
-            for (const auto& entry : library_) known.push_back(entry.first);
-            std::sort(known.begin(), known.end());
-            const std::string nearest = nearestWord(use.name, known);
-            return grey("no library has the material " + inQuotes(use.name) +
-                            (nearest.empty() ? "" : " (near: " + inQuotes(nearest) + ")"),
-                        use.line);
-        }
-        Material material = toMaterial(found->second, scene_, diagnostics_);
-        scene_.materials.push_back(std::move(material));
+    uint32_t find(const Name& use) {
+        const auto found = library_.find(use.text);
+        if (found != library_.end()) return add(toMaterial(found->second, scene_, diagnostics_));
+        std::vector<std::string> known;
+        for (const auto& entry : library_) known.push_back(entry.first);
+        std::sort(known.begin(), known.end());
+        const std::string nearest = nearestWord(use.text, known);
+        const std::string near = nearest.empty() ? "" : " (near: " + inQuotes(nearest) + ")";
+        return grey("no library has the material " + inQuotes(use.text) + near, use.line);
+    }
+
+    uint32_t add(const Material& material) {
+        scene_.materials.push_back(material);
         mesh_.materials.push_back(static_cast<uint32_t>(scene_.materials.size() - 1));
         return static_cast<uint32_t>(mesh_.materials.size() - 1);
     }
 
+    /// Stands in for a material that is not there: a Lambert surface of half reflectance.
     uint32_t grey(const std::string& reason, int line) {
         if (warned_.insert(reason).second)
             diagnostics_.warn({path_.string(), line}, reason, "mid-grey is used; a 'material' in the scene file overrides it");
         if (grey_ == kNone) {
-            mesh_.materials.push_back(addMidGrey(scene_));
-            grey_ = static_cast<uint32_t>(mesh_.materials.size() - 1);
+            Material lambert;
+            lambert.name = "mid-grey";
+            lambert.diffuse = glm::vec3(0.5f);
+            grey_ = add(lambert);
         }
         return grey_;
     }

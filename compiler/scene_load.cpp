@@ -197,6 +197,12 @@ Object readObject(SceneFile& file, const JsonValue& value, const Scene& scene, P
     const auto count =
         std::count_if(shapes.begin(), shapes.end(), [&](const std::string& s) { return value.find(s) != nullptr; });
     if (count > 1) throw Error(file.at(value), "an object has more than one shape", "split it into one object a shape");
+    if (count == 0) {
+        const JsonObject anyShape(
+            file, value, "an object",
+            {"mesh", "sphere", "rectangle", "material", "scale", "rotate", "translate", "smooth", "instances", "priority"});
+        throw Error(file.at(value), "an object has no shape", "add 'mesh', 'sphere' or 'rectangle'");
+    }
     Object object;
     if (value.find("sphere")) {
         object = readSphere(file, value, scene);

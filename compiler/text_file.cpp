@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -47,15 +48,12 @@ std::string readTextFile(const std::filesystem::path& path) {
 }
 
 std::string_view LineReader::takePhysicalLine() {
-    const size_t end = rest_.find_first_of("\r\n");
+    size_t end = 0;
+    while (end < rest_.size() && rest_[end] != '\r' && rest_[end] != '\n') ++end;
     const std::string_view line = rest_.substr(0, end);
     ++physical_;
-    if (end == std::string_view::npos) {
-        rest_ = {};
-    } else {
-        const bool pair = rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
-        rest_.remove_prefix(end + (pair ? 2 : 1));
-    }
+    const size_t mark = rest_.compare(end, 2, "\r\n") == 0 ? 2 : 1;
+    rest_.remove_prefix(std::min(end + mark, rest_.size()));
     return line;
 }
 
@@ -75,6 +73,19 @@ bool LineReader::next() {
     line_ = trim(line_);
     if (!line_.empty() && line_.front() == '#') line_ = {};
     return true;
+}
+
+RewrittenLines::RewrittenLines(std::string_view text, Rewrite rewrite)
+    : std::istream(this), lines_(text), rewrite_(std::move(rewrite)) {
+    exceptions(std::ios::badbit);  // else the stream keeps what rewrite_ throws
+}
+
+int RewrittenLines::underflow() {
+    for (out_.clear(); out_.empty(); rewrite_(lines_.line(), out_))
+        if (!lines_.next()) return EOF;
+    out_ += '\n';
+    setg(out_.data(), out_.data(), out_.data() + out_.size());
+    return static_cast<unsigned char>(out_.front());
 }
 
 std::string_view trim(std::string_view text) {
@@ -99,17 +110,21 @@ std::string_view takeValue(std::string_view& line) {
     return {};
 }
 
-std::optional<double> parseFinite(std::string_view word) {
-    if (!word.empty() && word.front() == '+') {
-        word.remove_prefix(1);
-        if (!word.empty() && word.front() == '-') return std::nullopt;
-    }
+std::string_view skipPlus(std::string_view number) {
+    return number.substr(number.size() > 1 && number[0] == '+' && number[1] != '-' ? 1 : 0);
+}
+
+std::optional<double> appendNumber(std::string& line, std::string_view word) {
+    constexpr size_t kLongest = 100;  // with more digits tinyobjloader overflows where the number does not
+    if (word.size() > kLongest) return std::nullopt;
+    const std::string_view digits = skipPlus(word);
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end != word.data() + word.size() || error == std::errc::invalid_argument) return std::nullopt;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (end != digits.data() + digits.size() || error == std::errc::invalid_argument) return std::nullopt;
     // from_chars reports underflow and overflow alike and leaves the value alone.
-    if (error == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
+    if (error == std::errc::result_out_of_range) value = std::strtod(std::string(digits).c_str(), nullptr);
     if (!std::isfinite(value)) return std::nullopt;
+    line.append(" ").append(value == 0 ? "0" : word);
     return value;
 }
 

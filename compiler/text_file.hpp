@@ -1,7 +1,10 @@
 // Text inputs: whole files and their logical lines.
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <istream>
 #include <optional>
+#include <streambuf>
 #include <string>
 #include <string_view>
 
@@ -34,14 +37,36 @@ private:
     int physical_ = 0;
 };
 
+/// What tinyobjloader reads instead of a text: the lines that `rewrite` appends to `out` for each logical line of it, or none.
+/// A line is made when it is asked for, so that number() is that of the line being read. What `rewrite` throws, the reader
+/// throws.
+class RewrittenLines : private std::streambuf, public std::istream {
+public:
+    using Rewrite = std::function<void(std::string_view line, std::string& out)>;
+    RewrittenLines(std::string_view text, Rewrite rewrite);
+
+    int number() const { return lines_.number(); }
+
+private:
+    int underflow() override;
+
+    LineReader lines_;
+    Rewrite rewrite_;
+    std::string out_;
+};
+
 /// Takes the first blank-separated word off `line`; empty when there is none.
 std::string_view takeWord(std::string_view& line);
 
 /// As takeWord, but a word that starts with # ends the line: comments may follow numbers (names may hold a #).
 std::string_view takeValue(std::string_view& line);
 
-/// `word` as a finite number, correctly rounded; nothing when it is none, has more after it, or is NaN or infinite.
-std::optional<double> parseFinite(std::string_view word);
+/// `number` without the + that std::from_chars does not take.
+std::string_view skipPlus(std::string_view number);
+
+/// Appends a blank and a finite number for tinyobjloader to a line and returns its value; nothing when `word` is none, has more
+/// after it, has over 100 characters, or is NaN or infinite. Any zero becomes 0: tinyobjloader makes NaN of 0e999.
+std::optional<double> appendNumber(std::string& line, std::string_view word);
 
 /// `text` without blanks at both ends.
 std::string_view trim(std::string_view text);

@@ -24,6 +24,14 @@ bool writeAll(int descriptor, const uint8_t* bytes, size_t size) {
 
 }  // namespace
 
+void requireWritable(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path))
+        throw Error({path.string()}, "cannot be written: it is a folder", "name a file in it");
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (::access(folder.c_str(), W_OK) == 0) return;
+    throw Error({path.string()}, std::string("cannot be written: ") + std::strerror(errno), "is its folder there and writable?");
+}
+
 void writeFile(const std::filesystem::path& path, const void* data, size_t size) {
     std::string temporary = path.string() + ".XXXXXX";
     const int descriptor = ::mkstemp(temporary.data());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <random>
 #include <set>
 
 #include "geometry.hpp"
@@ -109,6 +110,9 @@ TEST_CASE("what is wrong in an obj file is named with its line") {
         {"v 0 0 0\nf 1//1 1//1 1//1\n", "m.obj:2: the vn index 1 is out of range; the file has 0 vn lines"},
         {"v 0 0 0\nf 1 1.5 1\n", "m.obj:2: '1.5' is not an index; write whole numbers, such as f 1 2 3"},
         {"v 0 0 0\nf 1/1/1/1 1 1\n", "m.obj:2: '1/1/1/1' is no corner of a face; write v, v/vt, v//vn or v/vt/vn"},
+        {"v 0 0 0\nf 1 +-1 1\n", "m.obj:2: '+-1' is not an index; write whole numbers, such as f 1 2 3"},
+        {"v 0 0 0\nvt 0 0\nf 1/0 1 1\n",
+         "m.obj:3: the vt index 0 is out of range; indices count from 1, or from -1 backwards; 1 vt lines stand above"},
         {"v 0 0 0\nf /1 1 1\n", "m.obj:2: '/1' is no corner of a face; write v, v/vt, v//vn or v/vt/vn"},
         {std::string("v 0 0 0\nv \0\x01\x02 0\n", 16),
          "m.obj:2: the file is not text (it holds the byte 0); check that this is the file you meant"},
@@ -156,6 +160,49 @@ TEST_CASE("faces keep their line and texture rows start at the top") {
     CHECK(mesh.faces[1].corners[0].uv == 0);
     CHECK(mesh.faces[1].corners[1].uv == kNone);
     CHECK(mesh.faces[1].corners[1].normal == kNone);
+}
+
+TEST_CASE("corners keep what they name and no more, numbers their digits") {
+    Loader loader;
+    const Mesh mesh = loader.load(
+        "v 0e999 -0e-9999999999 1e-400\nv +.5e+1 1 0 0.5 0.5 0.5\nv 0 1 0\nvt 0\nvn 0 0 1\nf 1// 2/ 3/1/ # end\nf 1/-1 2//+1 "
+        "3//\n");
+    CHECK(mesh.positions[0] == glm::dvec3(0));
+    CHECK(mesh.positions[1] == glm::dvec3(5, 1, 0));
+    REQUIRE(mesh.faces.size() == 2);
+    const std::vector<Corner> expected = {{0, kNone, kNone}, {1, kNone, kNone}, {2, kNone, 0},
+                                          {0, kNone, 0},     {1, 0, kNone},     {2, kNone, kNone}};
+    for (size_t i = 0; i < expected.size(); ++i) {
+        CAPTURE(i);
+        const Corner& corner = mesh.faces[i / 3].corners[i % 3];
+        CHECK(corner.position == expected[i].position);
+        CHECK(corner.normal == expected[i].normal);
+        CHECK(corner.uv == expected[i].uv);
+    }
+}
+
+TEST_CASE("numbers are read to 14 digits and more") {
+    std::mt19937 random(1);
+    const auto digits = [&](int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += static_cast<char>('0' + random() % 10);
+        return text;
+    };
+    std::string obj;
+    std::vector<double> expected;
+    for (int i = 0; i < 3000; ++i) {
+        std::string number = (random() % 2 ? "-" : "") + digits(1 + random() % 18) + "." + digits(random() % 20);
+        if (random() % 2) number += "e" + std::to_string(static_cast<int>(random() % 560) - 280);
+        expected.push_back(std::strtod(number.c_str(), nullptr));
+        obj += (i % 3 ? " " : "\nv ") + number;
+    }
+    Loader loader;
+    const Mesh mesh = loader.load(obj + "\nf 1 2 3\n");
+    REQUIRE(mesh.positions.size() == 1000);
+    double worst = 0;
+    for (int i = 0; i < 3000; ++i)
+        if (expected[i] != 0) worst = std::max(worst, std::fabs(mesh.positions[i / 3][i % 3] / expected[i] - 1));
+    CHECK(worst < 1e-14);
 }
 
 TEST_CASE("every prefix of an obj file loads or is refused") {
@@ -272,7 +319,10 @@ TEST_CASE("mtl materials follow the table of the scene format") {
     m = loader.material(colors + "d 0.25\n");
     CHECK(m.diffuse == kd * 0.25f);
     CHECK(m.transmit == glm::vec3(0.75f));
+    CHECK(loader.material("d -halo 0.25\n").transmit == glm::vec3(0.75f));
     CHECK(loader.material("Tr 0.75\n").transmit == glm::vec3(0.75f));
+    CHECK(loader.material("Tr 4\nKt 9 9 9\n").transmit == glm::vec3(1));
+    CHECK(loader.material("Pr 0e999\nPm 5\n").reflect == glm::vec3(0.5f));
     CHECK(loader.material("d 1\nTr 0.75\n").transmit == glm::vec3(0));
     m = loader.material(colors + "Pr 0.5\nPm 0\n");
     CHECK(glm::length(m.diffuse - kd / 3.14159265f) < 1e-7f);
@@ -281,6 +331,9 @@ TEST_CASE("mtl materials follow the table of the scene format") {
     CHECK(m.diffuse == glm::vec3(0));
     CHECK(m.reflect == kd);
     CHECK(loader.material("").diffuse == glm::vec3(0.5f));
+    loader.dir.write("m.mtl", "Kd x\nnewmtl\nKd 1 0 0\nnewmtl b\nKd 0 1 0");
+    CHECK(loader.load("mtllib m.mtl\nusemtl\n" + loader.kTriangle).materials.size() == 1);
+    CHECK(loader.scene.materials.at(0).diffuse == glm::vec3(1, 0, 0));
     CHECK(loader.diagnostics.warnings.empty());
 }
 
@@ -298,6 +351,8 @@ TEST_CASE("bad mtl values are refused with their line") {
     CHECK(error("Ns 1e99\n") == "m.mtl:2: '1e99' after Ns is out of range; give 0 or more");
     CHECK(error("Ks -1 0 0\n") == "m.mtl:2: '-1' after Ks is out of range; give 0 or more");
     CHECK(error("d\n") == "m.mtl:2: '' after d is not a finite number; repair the line");
+    CHECK(error("Kd -halo 1\n") == "m.mtl:2: '-halo' after Kd is not a finite number; repair the line");
+    CHECK(error("Ns " + std::string(101, '0') + "\n").find("is not a finite number") != std::string::npos);
     CHECK(error("Pm 1\n") ==
           "m.mtl:1: the material 'a' is a metal with roughness over 0: not in this version; set Pr to 0 or name another material "
           "in the scene file");

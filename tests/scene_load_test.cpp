@@ -203,7 +203,8 @@ TEST_CASE("bad objects are refused") {
     checkAll({
         {"{}", "s.json:1:1: the scene has no 'objects'; add it"},
         {"{\"objects\":[]}", "s.json:1:12: there is nothing to render; add an object to 'objects'"},
-        {object("{}"), "s.json:2:1: a mesh object has no 'mesh'; add it"},
+        {object("{}"), "s.json:2:1: an object has no shape; add 'mesh', 'sphere' or 'rectangle'"},
+        {object("{\"spere\":{}}"), "s.json:2:2: an object has no key 'spere'; did you mean 'sphere'?"},
         {object("{\"mesh\":\"two.obj\"}"),
          "s.json:2:9: there is no file 'two.obj'; paths are relative to the scene file's folder"},
         {object("{\"mesh\":\"bad.obj\"}"), "bad.obj:1: 'x' is not a finite number; repair the line"},

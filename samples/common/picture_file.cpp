@@ -11,10 +11,13 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 namespace {
 
-std::string ending(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+std::string ending(const std::string& path) {
+    return std::filesystem::path(path).extension().string();
+}
 
 void appendBytes(void* context, void* data, int size) {
     auto* out = static_cast<std::vector<uint8_t>*>(context);
@@ -29,15 +32,19 @@ std::vector<float> rgbOf(const Picture& picture) {
     return rgb;
 }
 
-std::vector<uint8_t> encodePng(const Picture& picture) {
+std::vector<uint8_t> encodePng(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb) {
+    std::vector<uint8_t> bytes;
+    stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
+                           static_cast<int>(width) * 3);
+    return bytes;
+}
+
+std::vector<uint8_t> encodeSrgbPng(const Picture& picture) {
     std::vector<uint8_t> rgb;
     rgb.reserve(picture.rgba.size() / 4 * 3);
     for (size_t i = 0; i < picture.rgba.size(); i += 4)
         for (size_t k = 0; k < 3; ++k) rgb.push_back(srgbByte(picture.rgba[i + k]));
-    std::vector<uint8_t> bytes;
-    const int width = static_cast<int>(picture.width);
-    stbi_write_png_to_func(appendBytes, &bytes, width, static_cast<int>(picture.height), 3, rgb.data(), width * 3);
-    return bytes;
+    return encodePng(picture.width, picture.height, rgb);
 }
 
 std::vector<uint8_t> encodeHdr(const Picture& picture) {
@@ -133,10 +140,46 @@ std::string writePicture(const std::string& path, const Picture& picture) {
     const std::string kind = ending(path);
     std::string problem;
     std::vector<uint8_t> bytes;
-    if (kind == ".png") bytes = encodePng(picture);
+    if (kind == ".png") bytes = encodeSrgbPng(picture);
     if (kind == ".hdr") bytes = encodeHdr(picture);
     if (kind == ".pfm") bytes = encodePfm(picture);
     if (kind == ".exr") bytes = encodeExr(picture, problem);
     if (bytes.empty()) return path + ": " + (problem.empty() ? "unknown kind of picture; use .png, .exr, .hdr or .pfm" : problem);
     return writeWhole(path, bytes);
+}
+
+std::string writePng(const std::string& path, uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb) {
+    const std::vector<uint8_t> bytes = encodePng(width, height, rgb);
+    return bytes.empty() ? path + ": the picture cannot be encoded as PNG" : writeWhole(path, bytes);
+}
+
+std::string whyNotWritable(const std::string& path) {
+    if (std::filesystem::is_directory(path)) return path + ": cannot be written: it is a folder; name a file in it";
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return "";
+    return path + ": cannot be written: " + std::strerror(errno) + "; is its folder there and writable?";
+}
+
+std::string readPfm(const std::string& path, Picture& picture) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return path + ": cannot be opened; does the file exist?";
+    std::string kind;
+    double scale = 0;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    file >> kind >> width >> height >> scale;
+    file.get();  // the line break before the floats
+    constexpr uint32_t kMaxSide = 16384;
+    if (!file || kind != "PF" || scale >= 0 || width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+        return path + ": no little-endian colour .pfm; minirt-render writes such files";
+    picture.width = width;
+    picture.height = height;
+    picture.rgba.assign(size_t{width} * height * 4, 1.0f);
+    std::vector<float> row(size_t{width} * 3);
+    for (size_t y = height; y-- > 0;) {
+        if (!file.read(reinterpret_cast<char*>(row.data()), static_cast<std::streamsize>(row.size() * sizeof(float))))
+            return path + ": ends before its last pixel";
+        for (size_t x = 0; x < width; ++x) std::copy_n(&row[3 * x], 3, &picture.rgba[(y * width + x) * 4]);
+    }
+    return "";
 }

@@ -18,5 +18,14 @@ bool isPictureName(const std::string& path);
 /// Returns "" or what went wrong.
 std::string writePicture(const std::string& path, const Picture& picture);
 
+/// Reads a little-endian colour .pfm with alpha 1. Returns "" or what went wrong.
+std::string readPfm(const std::string& path, Picture& picture);
+
 /// The sRGB byte of a linear value; NaN is 0.
 uint8_t srgbByte(float linear);
+
+/// Writes width * height * 3 bytes, top row first, as they are. Returns "" or what went wrong.
+std::string writePng(const std::string& path, uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb);
+
+/// Returns "" where a file could be written now, or why not: to be asked before hours of rendering.
+std::string whyNotWritable(const std::string& path);

@@ -1,13 +1,13 @@
 // minirt-render: a blob to a picture file.
-#include <minirt.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "../common/command_line.hpp"
+#include "../common/device.hpp"
 #include "../common/picture_file.hpp"
 
 namespace {
@@ -27,10 +27,6 @@ struct Options {
     bool validation = false;
 };
 
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 void addOptions(CLI::App& app, Options& o) {
     app.footer("Examples:\n  minirt-render still_life.mrt -o still_life.png\n  minirt-render still_life.mrt -o still_life.exr --size 640x480 --spp 16");
     app.add_option("blob", o.blob, "Blob that minirtc baked (.mrt)")->required();
@@ -40,7 +36,10 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--max-depth", o.maxDepth, "Bounces after the camera ray (default: the scene's)")->check(CLI::Range(0, 255));
     const std::map<std::string, minirt_integrator> integrators = {
         {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
-    app.add_option("--integrator", o.integrator, "whitted, path or wavefront (default: the scene's)")->transform(CLI::CheckedTransformer(integrators));
+    app.add_option_function<std::string>(
+           "--integrator", [&o, integrators](const std::string& name) { o.integrator = integrators.at(name); },
+           "How to render (default: the scene's)")
+        ->check(CLI::IsMember(integrators));
     app.add_option("--samples", o.samples, "Render samples A up to, not including, B: A:B");
     app.add_option("--region", o.region, "Render only this part: X,Y,WIDTHxHEIGHT");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
@@ -57,8 +56,7 @@ minirt_render_desc renderDesc(const Options& o) {
     minirt_render_desc desc = {};
     int used = 0;
     const auto whole = [&](const std::string& text) { return used == static_cast<int>(text.size()); };
-    if (!o.size.empty())
-        checkOption(std::sscanf(o.size.c_str(), "%ux%u%n", &desc.width, &desc.height, &used) == 2 && whole(o.size), "--size: give WIDTHxHEIGHT, such as 640x480");
+    if (!o.size.empty()) parseSize(o.size, desc.width, desc.height);
     desc.samples = o.spp;
     if (!o.samples.empty()) {
         uint32_t end = 0;
@@ -123,44 +121,24 @@ void writeStats(const std::string& path, const minirt_device_info& device, const
                         {"traversal_cap", s.traversal_cap}};
     std::ofstream file(path);
     file << json.dump(2) << "\n";
-    if (!file.flush()) throw UsageError(path + ": cannot be written");
-}
-
-void logMessage(void*, minirt_log_level level, const char* message) {
-    if (level != MINIRT_LOG_ERROR) std::fprintf(stderr, "%s\n", message);
-}
-
-/// Owns the context with all that belongs to it.
-struct Context {
-    minirt_context* handle = nullptr;
-    ~Context() { minirt_destroy(handle); }
-};
-
-void require(minirt_result result, const Context& context, const std::string& where) {
-    if (result == MINIRT_OK) return;
-    std::string message = where.empty() ? "" : where + ": ";
-    message += minirt_result_string(result);
-    const char* detail = minirt_last_message(context.handle);
-    throw std::runtime_error(*detail ? message + ": " + detail : message);
+    if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
 void render(const Options& options) {
-    checkOption(isPictureName(options.output), "--output: use an ending of .png, .exr, .hdr or .pfm");
+    if (!isPictureName(options.output))
+        throw UsageError(options.output + ": unknown kind of picture; use .png, .exr, .hdr or .pfm");
     minirt_render_desc desc = renderDesc(options);
-    minirt_context_desc contextDesc = {};
-    contextDesc.device_name = options.device.c_str();
-    contextDesc.validation = options.validation ? 1 : 0;
-    contextDesc.log = logMessage;
-    Context context;
-    require(minirt_create(&contextDesc, &context.handle), context, "");
-    minirt_scene* scene = nullptr;
-    require(minirt_load_file(context.handle, options.blob.c_str(), &scene), context, options.blob);
+    for (const std::string& path : {options.output, options.stats}) {
+        const std::string problem = path.empty() ? "" : whyNotWritable(path);
+        if (!problem.empty()) throw std::runtime_error(problem);
+    }
+    Device device(options.device, options.validation);
+    minirt_scene* scene = device.load(options.blob);
     minirt_scene_desc sceneDesc;
     minirt_get_scene_desc(scene, &sceneDesc);
     Picture picture;
     picture.width = desc.width ? desc.width : sceneDesc.width;
     picture.height = desc.height ? desc.height : sceneDesc.height;
-    if (picture.width > 16384 || picture.height > 16384) throw UsageError("--size: at most 16384x16384");
     picture.rgba.resize(size_t{picture.width} * picture.height * 4);
     ProgressBar bar(options.timeBudget);
     minirt_stats stats = {};
@@ -169,12 +147,10 @@ void render(const Options& options) {
     desc.stats = &stats;
     const minirt_result result = minirt_render(scene, &desc, picture.rgba.data());
     bar.clear();
-    if (result != MINIRT_CANCELLED) require(result, context, options.blob);  // cancelled: the time budget is spent, the samples are fine
+    if (result != MINIRT_CANCELLED) device.require(result, options.blob);  // cancelled: the time budget is spent, the samples are fine
     const std::string problem = writePicture(options.output, picture);
     if (!problem.empty()) throw std::runtime_error(problem);
-    minirt_device_info device;
-    minirt_get_device_info(context.handle, &device);
-    if (!options.stats.empty()) writeStats(options.stats, device, stats);
+    if (!options.stats.empty()) writeStats(options.stats, device.info(), stats);
 }
 
 }  // namespace
@@ -183,6 +159,7 @@ int main(int argc, char** argv) {
     CLI::App app("minirt-render renders a baked scene to a picture file", "minirt-render");
     Options options;
     addOptions(app, options);
+    app.failure_message(oneLineFailure);
     CLI11_PARSE(app, argc, argv);
     try {
         render(options);

@@ -10,8 +10,10 @@ layout(constant_id = MINIRT_SPEC_STEP_BUDGET) const uint STEP_BUDGET = 1048576u;
 layout(constant_id = MINIRT_SPEC_INTERLEAVE_GROUPS) const bool INTERLEAVE_GROUPS = false;
 layout(constant_id = MINIRT_SPEC_STACK_LEVELS) const uint STACK_LEVELS = 64u;
 
+layout(constant_id = MINIRT_SPEC_FETCH_TEXELS) const bool FETCH_TEXELS = false;
+
 layout(push_constant) uniform FrameBlock { minirt_frame frame; };
-layout(std430, binding = MINIRT_BINDING_SCENE) readonly buffer SceneBlock { minirt_scene_rows scene; };
+layout(std140, binding = MINIRT_BINDING_SCENE) uniform SceneBlock { minirt_scene_rows scene; };
 layout(std430, binding = MINIRT_BINDING_FILM) buffer FilmBuffer { vec4 film[]; };           // sum of radiance, number of samples
 layout(std430, binding = MINIRT_BINDING_RAY_COUNTS) buffer CountBuffer { uvec2 rayCounts[]; };  // shadow, secondary; a pixel
 layout(std430, binding = MINIRT_BINDING_COUNTERS) buffer CounterBuffer { minirt_counters counters; };

@@ -1,8 +1,12 @@
 // How checkers and textures repeat. GLSL and C++ (tests/shader_source.hpp).
 
+/// Points this share of a cell before an edge count as past it: views that look along edges meet many points just on one, and
+/// rounding must not draw lots for them.
+const real CELL_EDGE = real(1.0 / 65536.0);
+
 /// Whether the cells of size `scale` that hold p, on the two axes across the normal `ng`, have an even sum.
 bool inEvenCell(vec3 p, vec3 ng, real scale) {
-    vec3 cell = floor(p / scale);
+    vec3 cell = floor(p / scale + vec3(CELL_EDGE));
     vec3 a = abs(ng);
     real sum = a.x > a.y && a.x > a.z ? cell.y + cell.z : a.y > a.z ? cell.x + cell.z : cell.x + cell.y;
     return sum - real(2) * floor(sum * real(0.5)) == real(0);

@@ -27,6 +27,6 @@ Surface surfaceAt(vec3 origin, vec3 direction, uint slot, float t) {
     uint corners = floatBitsToUint(row2.w);
     surface.n = shadingNormal(corners, row0.xyz, row1.xyz, row2.xyz, b, surface.p, surface.ng, surface.lift);
     surface.material = resolveMaterial(floatBitsToUint(row0.w) & ~MINIRT_PRIMITIVE_SPHERE, surface.p, surface.ng);
-    surface.diffuseTexture = diffuseTexture(materials[surface.material].options.y, corners, b);
+    surface.diffuseTexture = diffuseTexture(fetchMaterial(surface.material).options.y, corners, b);
     return surface;
 }

@@ -1,8 +1,9 @@
-// State of unfinished pixels between dispatches: words of one slot lie `capacity` apart, so that neighbours' loads are contiguous.
+// State of unfinished pixels between dispatches. The slots of a block lie together, and of these the same word: neighbours' loads are
+// contiguous and a block stays within a few memory pages.
 
 layout(std430, binding = MINIRT_BINDING_STATE) buffer StateBuffer { uint state[]; };
 
-uint stateIndex(uint slot, uint word) { return word * frame.blocks.w + slot; }
+uint stateIndex(uint slot, uint word) { return ((slot >> 6) * frame.blocks.w + word) * 64u + (slot & 63u); }
 
 void putWord(uint slot, inout uint word, uint value) { state[stateIndex(slot, word++)] = value; }
 void putFloat(uint slot, inout uint word, float value) { putWord(slot, word, floatBitsToUint(value)); }

@@ -3,7 +3,7 @@
 #ifdef EFFECT_CHECKER
 
 uint resolveMaterial(uint index, vec3 p, vec3 ng) {
-    minirt_material material = materials[index];
+    minirt_material material = fetchMaterial(index);
     bool even = inEvenCell(p + material.checker.xyz, ng, material.checker.w);
     bool isChecker = (material.options.x & MINIRT_MATERIAL_CHECKER) != 0u;
     return isChecker ? (even ? material.options.z : material.options.w) : index;

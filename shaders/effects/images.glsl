@@ -2,12 +2,13 @@
 
 #if defined(EFFECT_TEXTURES) || defined(EFFECT_BACKGROUND_IMAGE)
 
-layout(std430, binding = MINIRT_BINDING_IMAGES) readonly buffer ImageBuffer { minirt_image images[]; };
+layout(binding = MINIRT_BINDING_IMAGES) uniform usamplerBuffer imageRows;
 layout(binding = MINIRT_BINDING_TEXELS) uniform samplerBuffer texels;
 
 /// Bilinear; texel centres at half-integers; v = 0 is the top row. `u` wraps, `v` wraps or clamps as the image says.
 vec3 sampleImage(uint index, vec2 uv) {
-    minirt_image image = images[index];
+    int row = int(index) * MINIRT_IMAGE_ROWS;
+    minirt_image image = minirt_image(texelFetch(imageRows, row), uintBitsToFloat(texelFetch(imageRows, row + 1)));
     ivec2 size = ivec2(image.extent.xy);
     bool repeats = (image.extent.w & MINIRT_IMAGE_REPEAT_V) != 0u;
     vec2 at = (uv - floor(uv)) * vec2(size);

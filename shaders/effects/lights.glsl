@@ -8,7 +8,12 @@ struct LightSample {
 
 #if defined(EFFECT_POINT_LIGHTS) || defined(EFFECT_DIRECTIONAL_LIGHTS)
 
-layout(std430, binding = MINIRT_BINDING_LIGHTS) readonly buffer LightBuffer { minirt_light lights[]; };
+layout(binding = MINIRT_BINDING_LIGHTS) uniform usamplerBuffer lightRows;
+
+minirt_light fetchLight(uint index) {
+    int row = int(index) * MINIRT_LIGHT_ROWS;
+    return minirt_light(uintBitsToFloat(texelFetch(lightRows, row)), uintBitsToFloat(texelFetch(lightRows, row + 1)), texelFetch(lightRows, row + 2));
+}
 
 uint lightCount() { return scene.counts.x; }
 
@@ -22,7 +27,7 @@ LightSample pointLight(minirt_light light, vec3 p) {
 #endif
 
 LightSample sampleLight(uint index, vec3 p) {
-    minirt_light light = lights[index];
+    minirt_light light = fetchLight(index);
 #if defined(EFFECT_POINT_LIGHTS) && defined(EFFECT_DIRECTIONAL_LIGHTS)
     if ((light.options.x & MINIRT_LIGHT_DIRECTIONAL) == 0u) return pointLight(light, p);
 #elif defined(EFFECT_POINT_LIGHTS)

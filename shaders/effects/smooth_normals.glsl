@@ -2,12 +2,9 @@
 
 #ifdef EFFECT_SMOOTH_NORMALS
 
-layout(std430, binding = MINIRT_BINDING_NORMALS) readonly buffer NormalBuffer { float normals[]; };  // 9 a triangle: three unit vectors
+layout(binding = MINIRT_BINDING_NORMALS) uniform usamplerBuffer normalRows;  // 3 a triangle: unit vectors
 
-vec3 cornerNormal(uint corners, uint k) {
-    uint i = corners * 9u + k * 3u;
-    return vec3(normals[i], normals[i + 1u], normals[i + 2u]);
-}
+vec3 cornerNormal(uint corners, uint k) { return uintBitsToFloat(texelFetch(normalRows, int(corners * 3u + k)).xyz); }
 
 /// Unit shading normal; `lift` is where shadow rays start: the point moved out to the curved surface that the normals describe,
 /// which hides the facets' own terminator (Hanika, Ray Tracing Gems II ch. 4).

@@ -1,9 +1,5 @@
 // Effect `spheres`: analytic spheres among the primitives. Identity: every primitive is a triangle.
 
-layout(binding = MINIRT_BINDING_PRIMITIVES) uniform samplerBuffer primitiveRows;
-
-vec4 primitiveRow(uint slot, uint row) { return texelFetch(primitiveRows, int(slot * 3u + row)); }
-
 struct PrimitiveHit {
     bool hit;
     float t;

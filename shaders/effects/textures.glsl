@@ -2,12 +2,13 @@
 
 #ifdef EFFECT_TEXTURES
 
-layout(std430, binding = MINIRT_BINDING_UVS) readonly buffer UvBuffer { vec2 uvs[]; };  // 3 a triangle
+layout(binding = MINIRT_BINDING_UVS) uniform usamplerBuffer uvRows;  // 2 a triangle: three pairs
 
 vec3 diffuseTexture(uint image, uint corners, vec2 b) {
     if (image == MINIRT_NONE || corners == MINIRT_NONE) return vec3(1.0);
-    vec2 uv = (1.0 - b.x - b.y) * uvs[corners * 3u] + b.x * uvs[corners * 3u + 1u] + b.y * uvs[corners * 3u + 2u];
-    return sampleImage(image, uv);
+    vec4 first = uintBitsToFloat(texelFetch(uvRows, int(corners * 2u)));
+    vec4 second = uintBitsToFloat(texelFetch(uvRows, int(corners * 2u + 1u)));
+    return sampleImage(image, (1.0 - b.x - b.y) * first.xy + b.x * first.zw + b.y * second.xy);
 }
 
 #else

@@ -24,6 +24,7 @@ struct TreeWalk {
     float hitT;
     uint light;     // the next light to look at
     vec3 unshadowed;  // what the shadow ray's light adds unless it is blocked
+    vec3 radiance;    // gathered so far; summed in one order wherever the work was cut, so that a picture does not depend on it
 };
 
 uint waitingWord(uint index) { return MINIRT_WALK_WORDS + MINIRT_TRAVERSAL_WORDS + STACK_LEVELS + index * MINIRT_SEGMENT_WORDS; }
@@ -54,6 +55,7 @@ void saveWalk(uint slot, TreeWalk walk, Traversal ray) {
     putFloat(slot, word, walk.hitT);
     putWord(slot, word, walk.light);
     putVec3(slot, word, walk.unshadowed);
+    putVec3(slot, word, walk.radiance);
     putTraversal(slot, word, ray);
 }
 
@@ -67,6 +69,7 @@ void loadWalk(uint slot, inout TreeWalk walk, inout Traversal ray) {
     walk.hitT = takeFloat(slot, word);
     walk.light = takeWord(slot, word);
     walk.unshadowed = takeVec3(slot, word);
+    walk.radiance = takeVec3(slot, word);
     ray = takeTraversal(slot, word, walk.phase == PHASE_SHADOW);
 }
 
@@ -76,17 +79,27 @@ Traversal traceSegment(inout TreeWalk walk, Segment segment) {
     return beginTraversal(segment.origin, segment.direction, MINIRT_RAY_END, false);
 }
 
-/// Makes the shadow ray towards the next light, an empty one where that light adds nothing.
-Traversal traceShadow(inout TreeWalk walk, Surface surface, minirt_material material, vec3 ng, vec3 n) {
-    LightSample light = sampleLight(walk.light, surface.p);
+/// Light that adds less than this share of itself is not worth a shadow ray: a unit in the last place of what other lights add.
+const float NEGLIGIBLE_SHARE = 5.9604644775390625e-8;
+
+/// Looks for the next light that adds something at the surface, and starts the shadow ray towards it. Without one, or when the budget
+/// of steps ends the search, the ray is empty.
+Traversal traceShadow(inout TreeWalk walk, inout uint steps, Surface surface, minirt_material material, vec3 ng, vec3 n) {
+    Traversal ray = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, true);
+    ray.node = NODE_NONE;
     walk.phase = PHASE_SHADOW;
-    walk.light++;
-    vec3 weight = material.diffuse.rgb * surface.diffuseTexture * max(dot(n, light.toLight), 0.0);
-    weight += dot(n, light.toLight) > 0.0 ? highlight(material, n, light.toLight, -walk.segment.direction) : vec3(0.0);
-    walk.unshadowed = walk.segment.throughput * weight * light.irradiance;
-    vec3 origin = offsetRayOrigin(surface.p + surface.lift, surface.pError, ng, ng);
-    Traversal ray = beginTraversal(origin, light.toLight, light.distance, true);
-    if (maxComponent(walk.unshadowed) <= 0.0) ray.node = NODE_NONE;
+    walk.unshadowed = vec3(0.0);
+    while (walk.light < lightCount() && ray.node == NODE_NONE && steps < STEP_BUDGET) {
+        steps++;
+        LightSample light = sampleLight(walk.light++, surface.p);
+        float cosine = dot(n, light.toLight);
+        vec3 share = material.diffuse.rgb * surface.diffuseTexture * max(cosine, 0.0);
+        share += cosine > 0.0 ? highlight(material, n, light.toLight, -walk.segment.direction) : vec3(0.0);
+        if (maxComponent(share) > NEGLIGIBLE_SHARE) {
+            walk.unshadowed = walk.segment.throughput * share * light.irradiance;
+            ray = beginTraversal(offsetRayOrigin(surface.p + surface.lift, surface.pError, ng, ng), light.toLight, light.distance, true);
+        }
+    }
     return ray;
 }
 
@@ -121,7 +134,7 @@ Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Surface surface,
 void main() {
     PixelTask task = pixelTask();
     if (!task.valid) return;
-    TreeWalk walk = TreeWalk(PHASE_DONE, 0u, Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u), MINIRT_NONE, 0.0, 0u, vec3(0.0));
+    TreeWalk walk = TreeWalk(PHASE_DONE, 0u, Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u), MINIRT_NONE, 0.0, 0u, vec3(0.0), vec3(0.0));
     Traversal ray;
     if (frame.sampling.w != 0u) {
         loadWalk(task.slot, walk, ray);
@@ -130,39 +143,40 @@ void main() {
         vec3 direction = cameraDirection(task.pixel, frame.sampling.x);
         ray = traceSegment(walk, Segment(frame.position.xyz, direction, vec3(1.0), 0u));
     }
-    vec3 radiance = vec3(0.0);
     uvec2 rays = uvec2(0u);
     uint steps = 0u;
     while (walk.phase != PHASE_DONE) {
         traverse(ray, steps, STEP_BUDGET);
-        if (!isDone(ray)) break;
+        if (!isDone(ray) || steps >= STEP_BUDGET) break;
         steps++;
         bool arrived = walk.phase == PHASE_CLOSEST;
         if (arrived) {
             walk.hitSlot = ray.slot;
             walk.hitT = ray.t;
             walk.light = 0u;
-            if (ray.slot == MINIRT_NONE) radiance += walk.segment.throughput * backgroundRadiance(walk.segment.direction);
+            if (ray.slot == MINIRT_NONE) walk.radiance += walk.segment.throughput * backgroundRadiance(walk.segment.direction);
         } else if (ray.slot == MINIRT_NONE) {
-            radiance += walk.unshadowed;
+            walk.radiance += walk.unshadowed;
         }
         bool hit = walk.hitSlot != MINIRT_NONE;
         Surface surface = surfaceAt(walk.segment.origin, walk.segment.direction, hit ? walk.hitSlot : 0u, walk.hitT);
-        minirt_material material = materials[surface.material];
+        minirt_material material = fetchMaterial(surface.material);
         float side = dot(walk.segment.direction, surface.ng) < 0.0 ? 1.0 : -1.0;
         vec3 ng = surface.ng * side;
         vec3 n = surface.n * side;
-        if (arrived && hit) radiance += walk.segment.throughput * emission(material);
+        if (arrived && hit) walk.radiance += walk.segment.throughput * emission(material);
         if (hit && walk.light < lightCount()) {
-            ray = traceShadow(walk, surface, material, ng, n);
+            ray = traceShadow(walk, steps, surface, material, ng, n);
             rays.x += isDone(ray) ? 0u : 1u;
-        } else {
+        }
+        bool allLightsSeen = isDone(ray) && walk.light == lightCount();
+        if (!hit || allLightsSeen) {
             ray = nextSegment(task.slot, walk, hit, surface, material, ng, n);
             rays.y += walk.phase == PHASE_CLOSEST ? 1u : 0u;
         }
     }
     bool finished = walk.phase == PHASE_DONE;
-    addToFilm(task.filmIndex, radiance, finished, rays);
+    addToFilm(task.filmIndex, finished ? walk.radiance : vec3(0.0), finished, rays);
     saveWalk(task.slot, walk, ray);
     if (!finished) atomicAdd(counters.pending, 1u);
 }

@@ -1,8 +1,6 @@
 // Fetching a node's two child boxes. Two layouts; the compiler picks one for the scene (effect `float_nodes`).
 // A reference has MINIRT_LEAF set for a leaf: (first slot << 3 | count - 1).
 
-layout(binding = MINIRT_BINDING_NODES) uniform usamplerBuffer nodeRows;
-
 struct ChildBoxes {
     vec3 lo0, hi0, lo1, hi1;  // plane numbers of SlabRay
     uint ref0, ref1;
@@ -12,11 +10,11 @@ struct ChildBoxes {
 
 /// 64 bytes: planes are coordinates in metres.
 ChildBoxes fetchNode(uint node) {
-    int row = int(node) * 4;
-    uvec4 a = texelFetch(nodeRows, row);
-    uvec4 b = texelFetch(nodeRows, row + 1);
-    uvec4 c = texelFetch(nodeRows, row + 2);
-    uvec4 d = texelFetch(nodeRows, row + 3);
+    uint row = node * 4u;
+    uvec4 a = nodeRow(row);
+    uvec4 b = nodeRow(row + 1u);
+    uvec4 c = nodeRow(row + 2u);
+    uvec4 d = nodeRow(row + 3u);
     return ChildBoxes(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz), a.w, c.w);
 }
 
@@ -27,9 +25,9 @@ float high16(uint word) { return float(int(word >> 16)); }
 
 /// 32 bytes: twelve 16-bit planes of one grid over the scene.
 ChildBoxes fetchNode(uint node) {
-    int row = int(node) * 2;
-    uvec4 a = texelFetch(nodeRows, row);
-    uvec4 b = texelFetch(nodeRows, row + 1);
+    uint row = node * 2u;
+    uvec4 a = nodeRow(row);
+    uvec4 b = nodeRow(row + 1u);
     return ChildBoxes(vec3(low16(a.x), high16(a.x), low16(a.y)), vec3(high16(a.y), low16(a.z), high16(a.z)),
                       vec3(low16(b.x), high16(b.x), low16(b.y)), vec3(high16(b.y), low16(b.z), high16(b.z)), a.w, b.w);
 }

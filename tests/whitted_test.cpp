@@ -1,0 +1,729 @@
+// Pictures of the Whitted tracer against closed forms: from JSON through minirtc to floats.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "oracle.hpp"
+#include "render_scene.hpp"
+
+using glm::dvec3;
+using test::GpuContext;
+using test::LoadedScene;
+using test::Picture;
+using test::renderScene;
+using test::TemporaryDir;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kCutoff = 1.0 / 512;  // rays of less throughput end
+
+std::string json(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", number);
+    return text;
+}
+
+std::string json(const dvec3& v) {
+    return "[" + json(v.x) + "," + json(v.y) + "," + json(v.z) + "]";
+}
+
+std::string quoted(const std::string& key) {
+    return "\"" + key + "\":";
+}
+
+/// A pinhole camera, as text for the scene and as rays for the closed form.
+struct View {
+    dvec3 position{0, 0, 5};
+    dvec3 target{0};
+    double vfov = 40;
+    uint32_t size = 48;
+    dvec3 up{0, 1, 0};
+    uint32_t maxDepth = 20;
+    uint32_t samples = 1;
+
+    /// The members "camera" and "render" of a scene.
+    std::string text() const {
+        return quoted("camera") + "{" + quoted("position") + json(position) + "," + quoted("target") + json(target) + "," +
+               quoted("up") + json(up) + "," + quoted("vfov") + json(vfov) + "}," + quoted("render") + "{" + quoted("size") +
+               "[" + json(size) + "," + json(size) + "]," + quoted("maxDepth") + json(maxDepth) + "," + quoted("spp") +
+               json(samples) + "}";
+    }
+
+    /// Unit direction through the centre of a pixel.
+    dvec3 direction(uint32_t x, uint32_t y) const {
+        const dvec3 forward = glm::normalize(target - position), right = glm::normalize(glm::cross(forward, up));
+        const double half = std::tan(glm::radians(vfov) / 2);
+        const double u = ((x + 0.5) / size * 2 - 1) * half, v = ((y + 0.5) / size * 2 - 1) * half;
+        return glm::normalize(forward + u * right - v * glm::cross(right, forward));
+    }
+};
+
+std::string rectangle(const dvec3& origin, const dvec3& u, const dvec3& v, const std::string& material) {
+    return "{" + quoted("rectangle") + "{" + quoted("origin") + json(origin) + "," + quoted("u") + json(u) + "," + quoted("v") +
+           json(v) + "}," + quoted("material") + "\"" + material + "\"}";
+}
+
+std::string sphere(const dvec3& center, double radius, const std::string& material) {
+    return "{" + quoted("sphere") + "{" + quoted("center") + json(center) + "," + quoted("radius") + json(radius) + "}," +
+           quoted("material") + "\"" + material + "\"}";
+}
+
+/// The plane y = 0 out to 20 metres, its front upwards.
+std::string floorOf(const std::string& material) {
+    return rectangle({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, material);
+}
+
+std::string glow(double radiance) {
+    return R"({"model":"pbr","baseColor":[0,0,0],"emissive":)" + json(dvec3(radiance)) + "}";
+}
+
+std::string glass(double ior) {
+    return R"({"model":"pbr","roughness":0,"transmission":1,"ior":)" + json(ior) + "}";
+}
+
+/// Compares every pixel for which `expected` has a value; the error is relative to it, or to `least` where it is smaller.
+void checkPixels(const Picture& picture, double tolerance,
+                 const std::function<std::optional<dvec3>(uint32_t, uint32_t)>& expected, double least = 1e-3) {
+    double worst = 0;
+    size_t compared = 0;
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x) {
+            const std::optional<dvec3> value = expected(x, y);
+            if (!value) continue;
+            compared++;
+            for (int k = 0; k < 3; ++k) {
+                const double error = std::abs(picture.at(x, y)[k] - (*value)[k]) / std::max(std::abs((*value)[k]), least);
+                INFO("pixel " << x << " " << y << " channel " << k << ": " << picture.at(x, y)[k] << " instead of "
+                              << (*value)[k]);
+                if (!(error <= tolerance) && worst <= tolerance) CHECK(error <= tolerance);
+                worst = std::max(worst, error);
+            }
+        }
+    MESSAGE("largest error " << worst << " of " << compared << " pixels");
+    CHECK(worst <= tolerance);
+    CHECK(compared * 4 > size_t{picture.width} * picture.height);
+}
+
+std::optional<dvec3> meetFloor(const dvec3& origin, const dvec3& direction) {
+    const double t = -origin.y / direction.y;
+    if (!(t > 0)) return std::nullopt;
+    return origin + t * direction;
+}
+
+/// Unpolarised Fresnel reflectance at an interface; `eta` is the index behind over the one in front.
+double fresnel(double cosI, double eta) {
+    const double sin2T = (1 - cosI * cosI) / (eta * eta);
+    if (sin2T >= 1) return 1;
+    const double cosT = std::sqrt(1 - sin2T);
+    const double parallel = (eta * cosI - cosT) / (eta * cosI + cosT), perpendicular = (cosI - eta * cosT) / (cosI + eta * cosT);
+    return (parallel * parallel + perpendicular * perpendicular) / 2;
+}
+
+const char* kPlaster = R"({"model":"phong","diffuse":0.8,"color":[0.9,0.5,0.2]})";
+const dvec3 kPlasterWeight = dvec3(0.8) * dvec3(0.9, 0.5, 0.2);
+
+std::string pointLight(const dvec3& position, const dvec3& intensity, const std::string& falloff) {
+    return R"({"type":"point","position":)" + json(position) + R"(,"intensity":)" + json(intensity) + R"(,"falloff":")" +
+           falloff + "\"}";
+}
+
+}  // namespace
+
+TEST_CASE("a point light over a plane with and without falloff") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 3, 5}, {0, 0, 0}};
+    const dvec3 light(1, 2, -1), intensity(10, 20, 30);
+    for (const bool inverseSquare : {true, false}) {
+        const Picture picture = renderScene(
+            gpu, "{" + view.text() + R"(,"lights":[)" + pointLight(light, intensity, inverseSquare ? "inverse-square" : "none") +
+                     R"(],"materials":{"m":)" + kPlaster + R"(},"objects":[)" + floorOf("m") + "]}");
+        checkPixels(picture, 1e-5, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+            const std::optional<dvec3> p = meetFloor(view.position, view.direction(x, y));
+            if (!p) return std::nullopt;
+            const dvec3 away = light - *p;
+            const double d2 = glm::dot(away, away);
+            return kPlasterWeight * intensity * (away.y / std::sqrt(d2)) / (inverseSquare ? d2 : 1.0);
+        });
+        CHECK(picture.stats.primary_rays == 48 * 48);
+        CHECK(picture.stats.shadow_rays == 48 * 48);
+        CHECK(picture.stats.secondary_rays == 0);
+    }
+}
+
+TEST_CASE("a directional light over a plane and a background beside it") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 1, 30}, {0, 1.5, 0}, 60};
+    const dvec3 direction(1, -2, 0.5), irradiance(3, 2, 1), background(0.25, 0.5, 0.75);
+    const Picture picture = renderScene(gpu, "{" + view.text() + R"(,"background":{"color":)" + json(background / 2.0) +
+                                                 R"(,"strength":2},"lights":[)" + R"({"type":"directional","direction":)" +
+                                                 json(direction) + R"(,"irradiance":)" + json(irradiance) +
+                                                 R"(}],"materials":{"m":)" + kPlaster + R"(},"objects":[)" + floorOf("m") + "]}");
+    checkPixels(picture, 1e-6, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+        const std::optional<dvec3> p = meetFloor(view.position, view.direction(x, y));
+        if (!p || std::abs(p->x) > 20.001 || std::abs(p->z) > 20.001) return background;
+        if (std::abs(p->x) > 19.999 || std::abs(p->z) > 19.999) return std::nullopt;
+        return kPlasterWeight * irradiance * (-direction.y / glm::length(direction));
+    });
+}
+
+TEST_CASE("a ball throws a shadow on the floor") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 6, 6}, {0, 0, 0}};
+    const dvec3 light(0.5, 8, 0.25), center(0, 2, 0);
+    const Picture picture =
+        renderScene(gpu, "{" + view.text() + R"(,"lights":[)" + pointLight(light, {1, 1, 1}, "none") + R"(],"materials":{"m":)" +
+                             kPlaster + R"(},"objects":[)" + floorOf("m") + "," + sphere(center, 0.75, "m") + "]}");
+    size_t shadowed = 0;
+    const auto passes = [](const dvec3& origin, const dvec3& d, const dvec3& c) {
+        return glm::length(glm::cross(c - origin, d));
+    };
+    checkPixels(picture, 1e-5, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+        const dvec3 d = view.direction(x, y), p = *meetFloor(view.position, d), toLight = glm::normalize(light - p);
+        if (passes(view.position, d, center) < 0.7501) return std::nullopt;  // the ball itself
+        const double distance = passes(p, toLight, center);
+        if (std::abs(distance - 0.75) < 1e-4) return std::nullopt;
+        shadowed += distance < 0.75;
+        return distance < 0.75 ? dvec3(0) : kPlasterWeight * toLight.y;
+    });
+    CHECK(shadowed > 30);
+}
+
+TEST_CASE("the highlight is that of Phong") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 3, 3}, {0, 0, -1}};
+    const dvec3 light(0, 3, -5);
+    const double shininess = 40;
+    const Picture picture = renderScene(
+        gpu, "{" + view.text() + R"(,"lights":[)" + pointLight(light, {2, 4, 8}, "none") +
+                 R"(],"materials":{"m":{"model":"phong","diffuse":0.25,"specular":0.5,"color":[1,0.5,0.25],"shininess":)" +
+                 json(shininess) + R"(}},"objects":[)" + floorOf("m") + "]}");
+    double brightest = 0;
+    checkPixels(picture, 3e-5, [&](uint32_t x, uint32_t y) {
+        const dvec3 d = view.direction(x, y), p = *meetFloor(view.position, d), wi = glm::normalize(light - p);
+        const dvec3 mirrored(-wi.x, wi.y, -wi.z);
+        const double lobe = std::pow(std::max(glm::dot(mirrored, -d), 0.0), shininess);
+        brightest = std::max(brightest, lobe);
+        return dvec3(1, 0.5, 0.25) * dvec3(2, 4, 8) * (0.25 * wi.y + 0.5 * lobe);
+    });
+    CHECK(brightest > 0.99);
+}
+
+TEST_CASE("what a mirror shows equals what is seen directly") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const std::string lit = R"("lights":[)" + pointLight({1, 4, -2}, {20, 30, 40}, "inverse-square") + R"(],"materials":{"m":)" +
+                            kPlaster + R"(,"mirror":{"model":"phong","diffuse":0,"reflect":1}})";
+    const std::string wall = rectangle({-40, 0.5, -6}, {80, 0, 0}, {0, 40, 0}, "m") + "," + sphere({0.5, 2, -4}, 0.8, "m");
+    const View above{{0, 2, 4}, {0, 0, 0}, 30}, below{{0, -2, 4}, {0, 0, 0}, 30, 48, {0, -1, 0}};
+    const Picture mirrored = renderScene(gpu, "{" + above.text() + "," + lit + R"(,"objects":[)" + wall + "," +
+                                                  rectangle({-5, 0, -6}, {0, 0, 10}, {10, 0, 0}, "mirror") + "]}");
+    const Picture direct = renderScene(gpu, "{" + below.text() + "," + lit + R"(,"objects":[)" + wall + "]}");
+    size_t edges = 0;
+    // Rays start off the mirror by as much as its corners are rounded, which shows where light grazes the ball.
+    const auto seenDirectly = [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+        const glm::vec3 value = direct.at(47 - x, y);
+        // A mirror image may round to the other side of the ball's outline.
+        const bool edge = glm::distance(mirrored.at(x, y), value) > 0.01f;
+        edges += edge;
+        return edge ? std::nullopt : std::optional<dvec3>(value);
+    };
+    checkPixels(mirrored, 3e-4, seenDirectly, 0.1);
+    CHECK(edges < 4);
+    CHECK(mirrored.stats.secondary_rays == 48 * 48);
+}
+
+namespace {
+
+/// A slab of glass 1 m thick before a wall 4 m behind its back. `radiance` is that of the wall at a lateral distance from the
+/// axis.
+double slabRadiance(double ior, double cosI, double distance, uint32_t maxDepth, const std::function<double(double)>& radiance) {
+    const double sinI = std::sqrt(1 - cosI * cosI), sinT = sinI / ior, cosT = std::sqrt(1 - sinT * sinT);
+    const double r = fresnel(cosI, ior);
+    double throughput = 1 - r, lateral = distance * sinI / cosI + sinT / cosT, sum = 0;
+    // The k-th term leaves the back after 2 k inner reflections.
+    for (uint32_t depth = 1; throughput > kCutoff && depth < maxDepth; depth += 2) {
+        if (throughput * (1 - r) > kCutoff) sum += throughput * (1 - r) * radiance(lateral + 4 * sinI / cosI);
+        if (throughput * r <= kCutoff || depth + 1 > maxDepth) break;
+        throughput *= r * r;
+        lateral += 2 * sinT / cosT;
+    }
+    return sum;
+}
+
+std::string slab() {
+    return rectangle({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}, "glass") + "," +
+           rectangle({-8, -8, -1}, {0, 16, 0}, {16, 0, 0}, "glass");
+}
+
+}  // namespace
+
+TEST_CASE("a slab of glass transmits the series of its Fresnel products") {
+    GpuContext gpu;
+    if (!gpu) return;
+    for (const double ior : {1.5, 2.42, 0.8})
+        for (const uint32_t maxDepth : {0u, 1u, 2u, 3u, 4u, 20u}) {
+            CAPTURE(ior);
+            CAPTURE(maxDepth);
+            View view{{0, 0, 2}, {0, 0, 0}, 60, 33};
+            view.maxDepth = maxDepth;
+            const Picture picture = renderScene(gpu, "{" + view.text() + R"(,"materials":{"glass":)" + glass(ior) +
+                                                         R"(,"wall":)" + glow(2) + R"(},"objects":[)" + slab() + "," +
+                                                         rectangle({-400, -400, -5}, {800, 0, 0}, {0, 800, 0}, "wall") + "]}");
+            checkPixels(picture, 1e-5, [&](uint32_t x, uint32_t y) {
+                const double cosI = -view.direction(x, y).z;
+                return dvec3(slabRadiance(ior, cosI, 2, maxDepth, [](double) { return 2.0; }));
+            });
+        }
+}
+
+TEST_CASE("a slab of glass shifts what is behind it") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const double ior = 1.5;
+    const View view{{0, 0, 2}, {0, 0, 0}, 80, 48};
+    const Picture picture = renderScene(
+        gpu, "{" + view.text() + R"(,"lights":[)" + pointLight({0, 0, -3}, {8, 8, 8}, "inverse-square") +
+                 R"(],"materials":{"glass":)" + glass(ior) + R"(,"wall":{"model":"phong","diffuse":0.5}},"objects":[)" + slab() +
+                 "," + rectangle({-16, -16, -5}, {32, 0, 0}, {0, 32, 0}, "wall") + "]}");
+    const auto wall = [](double lateral) {
+        const double d2 = 4 + lateral * lateral;
+        return 0.5 * 8 * 2 / std::sqrt(d2) / d2;
+    };
+    checkPixels(picture, 2e-5,
+                [&](uint32_t x, uint32_t y) { return dvec3(slabRadiance(ior, -view.direction(x, y).z, 2, 20, wall)); });
+}
+
+namespace {
+
+/// Light enters through z = 0, meets the oblique face at 45 degrees and leaves through the top.
+const char* kPrism =
+    "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 1 1 -2\nv -1 1 -2\n"
+    "f 1 2 3 4\nf 4 3 5 6\nf 1 6 5 2\nf 2 5 3\nf 1 4 6\n";
+
+/// A prism of glass below a ceiling of radiance 3, seen along its axis.
+Picture prismPicture(const GpuContext& gpu, const std::string& material) {
+    const View view{{0, 0, 5}, {0, 0, 0}, 0.5, 9};
+    TemporaryDir dir;
+    dir.write("prism.obj", kPrism);
+    return renderScene(gpu, dir,
+                       "{" + view.text() + R"(,"materials":{"glass":)" + material + R"(,"ceiling":)" + glow(3) +
+                           R"(},"objects":[{"mesh":"prism.obj","material":"glass"},)" +
+                           rectangle({-50, 5, -50}, {100, 0, 0}, {0, 0, 100}, "ceiling") + "]}");
+}
+
+}  // namespace
+
+TEST_CASE("a prism reflects totally above the critical angle and transmits below it") {
+    GpuContext gpu;
+    if (!gpu) return;
+    for (const double ior : {1.5, 1.3}) {
+        CAPTURE(ior);
+        const Picture picture = prismPicture(gpu, glass(ior));
+        const double r = fresnel(1, ior), oblique = fresnel(std::sqrt(0.5), 1 / ior);
+        CHECK((oblique == 1) == (ior > std::sqrt(2.0)));
+        // What passes the oblique face bends upwards and meets the ceiling too.
+        const double expected = (1 - r) * (oblique * (1 - r) + (1 - oblique)) * 3;
+        CHECK(picture.at(4, 4).x == doctest::Approx(expected).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("phong glass without Fresnel sends everything into total reflection") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const Picture picture = prismPicture(gpu, R"({"model":"phong","diffuse":0,"refract":0.5,"ior":1.5})");
+    for (uint32_t i = 0; i < 81; ++i) CHECK(picture.at(i % 9, i / 9) == glm::vec3(0.75f));  // two interfaces of weight 0.5
+}
+
+namespace {
+
+/// An uncompressed TGA file of 8-bit sRGB texels, row 0 at the top.
+std::string tga(uint16_t width, uint16_t height, const std::vector<std::array<uint8_t, 3>>& rgb) {
+    std::string file(18, '\0');
+    file[2] = 2, file[12] = char(width & 255), file[13] = char(width >> 8), file[14] = char(height & 255),
+    file[15] = char(height >> 8);
+    file[16] = 24, file[17] = 0x20;
+    for (const auto& texel : rgb) file += {char(texel[2]), char(texel[1]), char(texel[0])};
+    return file;
+}
+
+double srgb(uint8_t value) {
+    const double c = value / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+/// Linear texels and how a sampler reads them: centres at half-integers, u wraps, v wraps or clamps.
+struct Texels {
+    int width, height;
+    std::vector<dvec3> values;
+
+    dvec3 at(int x, int y, bool wrapV) const {
+        const int column = ((x % width) + width) % width;
+        const int row = wrapV ? ((y % height) + height) % height : std::min(std::max(y, 0), height - 1);
+        return values[size_t(row) * width + column];
+    }
+    dvec3 bilinear(double u, double v, bool wrapV) const {
+        const double x = u * width - 0.5, y = v * height - 0.5, fx = x - std::floor(x), fy = y - std::floor(y);
+        const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
+        return (at(x0, y0, wrapV) * (1 - fx) + at(x0 + 1, y0, wrapV) * fx) * (1 - fy) +
+               (at(x0, y0 + 1, wrapV) * (1 - fx) + at(x0 + 1, y0 + 1, wrapV) * fx) * fy;
+    }
+};
+
+/// Texels of every kind of value, with their file.
+struct Image {
+    Texels texels;
+    std::string file;
+
+    Image(int width, int height) : texels{width, height, {}} {
+        std::vector<std::array<uint8_t, 3>> bytes;
+        for (int i = 0; i < width * height; ++i) {
+            bytes.push_back({uint8_t(i * 53 + 20), uint8_t(255 - i * 31), uint8_t(i * i * 7 + 3)});
+            texels.values.push_back({srgb(bytes.back()[0]), srgb(bytes.back()[1]), srgb(bytes.back()[2])});
+        }
+        file = tga(uint16_t(width), uint16_t(height), bytes);
+    }
+};
+
+constexpr double kHalf = 0x1p-11;  // rounding of a texel to 16 bits
+
+}  // namespace
+
+TEST_CASE("a texture is bilinear and wraps and is decoded from sRGB") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const Image image(5, 4);
+    TemporaryDir dir;
+    dir.write("image.tga", image.file);
+    // Texture coordinates from (-0.75, -1.5) to (1.5, 2) over [-1,1]^2, in the plane z = 0.
+    dir.write("quad.obj",
+              "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt -0.75 -1.5\nvt 1.5 -1.5\nvt 1.5 2\nvt -0.75 2\nf 1/1 2/2 3/3 4/4\n");
+    const View view{{0, 0, 4}, {0, 0, 0}, 28, 64};
+    const Picture picture = renderScene(
+        gpu, dir,
+        "{" + view.text() + R"(,"lights":[{"type":"directional","direction":[0,0,-1],"irradiance":)" + json(dvec3(kPi)) +
+            R"(}],"materials":{"m":{"model":"pbr","baseColor":"image.tga"}},"objects":[{"mesh":"quad.obj","material":"m"}]})");
+    checkPixels(
+        picture, 2 * kHalf,
+        [&](uint32_t x, uint32_t y) {
+            const dvec3 d = view.direction(x, y), p = view.position - d * (4 / d.z);
+            const double u = -0.75 + (p.x + 1) / 2 * 2.25, v = -1.5 + (p.y + 1) / 2 * 3.5;
+            return image.texels.bilinear(u, 1 - v, true);
+        },
+        1e-2);
+}
+
+TEST_CASE("the texture of a rectangle stands upright") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const Image image(4, 4);
+    TemporaryDir dir;
+    dir.write("image.tga", image.file);
+    const View view{{0, 0, 4}, {0, 0, 0}, 28, 64};
+    const Picture picture =
+        renderScene(gpu, dir,
+                    "{" + view.text() + R"(,"lights":[{"type":"directional","direction":[0,0,-1],"irradiance":)" +
+                        json(dvec3(kPi)) + R"(}],"materials":{"m":{"model":"pbr","baseColor":"image.tga"}},"objects":[)" +
+                        rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, "m") + "]}");
+    checkPixels(
+        picture, 2 * kHalf,
+        [&](uint32_t x, uint32_t y) {
+            const dvec3 d = view.direction(x, y), p = view.position - d * (4 / d.z);
+            return image.texels.bilinear((p.x + 1) / 2, (1 - p.y) / 2, true);
+        },
+        1e-2);
+}
+
+TEST_CASE("the background shows each direction where it belongs") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const Image image(8, 5);
+    TemporaryDir dir;
+    dir.write("sky.tga", image.file);
+    const std::vector<dvec3> directions = {{1, 0, 0},  {-1, 0, 0},        {0, 0, 1},         {0, 0, -1},       {0, 1, 0},
+                                           {0, -1, 0}, {-1, 0.3, 1e-4},   {-1, 0.3, -1e-4},  {1e-4, 1, 1e-4},  {-1e-4, -1, 2e-4},
+                                           {1, 1, 1},  {-0.4, -0.7, 0.2}, {0.2, -0.3, -0.9}, {-0.6, 0.1, -0.3}};
+    for (const double rotation : {0.0, 90.0, -137.0}) {
+        CAPTURE(rotation);
+        View view{{0, 0, 0}, {1, 0, 0}, 1, 1};
+        const LoadedScene scene(
+            gpu, test::bakeScene(dir, "{" + view.text() + R"(,"background":{"image":"sky.tga","strength":1.5,"rotation":)" +
+                                          json(rotation) + R"(},"materials":{"m":)" + kPlaster + R"(},"objects":[)" +
+                                          sphere({0, 100, 100}, 0.01, "m") + "]}"));
+        for (const dvec3& direction : directions) {
+            CAPTURE(direction.x);
+            CAPTURE(direction.y);
+            CAPTURE(direction.z);
+            const minirt_camera camera = {
+                {0, 0, 0}, {direction.x, direction.y, direction.z}, {0.1, std::abs(direction.y) > 0.9 ? 0.0 : 1.0, 0.2}, 1};
+            minirt_render_desc desc = {};
+            desc.camera = &camera;
+            const glm::vec3 got = scene.render(desc).at(0, 0);
+            // -Z at a quarter of the width, then +X, +Z, -X; the panorama turns to the left of whoever stands in it.
+            const double u = std::atan2(direction.z, direction.x) / (2 * kPi) + 0.5 + rotation / 360;
+            const double v = std::atan2(std::hypot(direction.x, direction.z), direction.y) / kPi;
+            const bool pole = direction.x == 0 && direction.z == 0;
+            const dvec3 expected = 1.5 * image.texels.bilinear(pole ? 0.5 + rotation / 360 : u, v, false);
+            for (int k = 0; k < 3; ++k) CHECK(got[k] == doctest::Approx(expected[k]).epsilon(2e-3));
+        }
+    }
+}
+
+TEST_CASE("glass of index 1 is invisible bit for bit") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const Image image(16, 9);
+    TemporaryDir dir;
+    dir.write("sky.tga", image.file);
+    std::string ball;
+    for (const oracle::Triangle& triangle : oracle::icosphere({0, 0, 0}, 1, 3))
+        for (const glm::vec3& p : triangle) ball += "v " + json(p.x) + " " + json(p.y) + " " + json(p.z) + "\n";
+    for (int i = 1; i <= 20 * 64 * 3; i += 3)
+        ball += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+    dir.write("ball.obj", ball);
+    const View view{{0, 0, 5}, {0, 0, 0}, 60, 64};
+    const auto scene = [&](const std::string& material) {
+        return "{" + view.text() + R"(,"background":{"image":"sky.tga"},"materials":{"glass":)" + material + R"(},"objects":[)" +
+               sphere({0.5, 0.2, 0}, 1.5, "glass") +
+               R"(,{"mesh":"ball.obj","material":"glass","smooth":true,"translate":[0.2,-0.1,0]},)" +
+               sphere({0.5, 0.2, -300}, 0.001, "glass") + "]}";
+    };
+    const Picture with = renderScene(gpu, dir, scene(glass(1)));
+    CHECK(with.stats.secondary_rays > 1000);
+    // The same rays meet nothing where all of it is moved away.
+    const Picture without = renderScene(gpu, dir,
+                                        "{" + view.text() + R"(,"background":{"image":"sky.tga"},"materials":{"glass":)" +
+                                            glass(1) + R"(},"objects":[)" + sphere({0, 0, 1000}, 1, "glass") + "]}");
+    CHECK(with == without);
+    CHECK(without.stats.secondary_rays == 0);
+}
+
+TEST_CASE("a sphere has the outline and the normals of a sphere") {
+    GpuContext gpu;
+    if (!gpu) return;
+    for (const dvec3& center : {dvec3(0, 0, 0), dvec3(1e5, -2e5, 3e5)}) {
+        View view{center + dvec3(0, 0, 6), center, 40, 64};
+        const dvec3 toLight = glm::normalize(dvec3(1, 2, 3));
+        const Picture picture = renderScene(
+            gpu, "{" + view.text() + R"(,"background":{"color":[7,7,7]},"lights":[{"type":"directional","direction":)" +
+                     json(-toLight) + R"(}],"materials":{"m":)" + kPlaster + R"(},"objects":[)" + sphere(center, 2, "m") + "]}");
+        checkPixels(
+            picture, 2e-5,
+            [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+                const dvec3 d = view.direction(x, y), o = view.position - center;
+                const double along = -glm::dot(o, d), distance = glm::length(o + along * d);
+                if (std::abs(distance - 2) < 1e-5) return std::nullopt;
+                if (distance > 2) return dvec3(7);
+                const dvec3 n = (o + d * (along - std::sqrt(4 - distance * distance))) / 2.0;
+                return kPlasterWeight * std::max(glm::dot(n, toLight), 0.0);
+            },
+            0.05);
+    }
+}
+
+TEST_CASE("smooth normals on finer balls approach the sphere") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 0, 6}, {0, 0, 0}, 36, 64};
+    const dvec3 toLight = glm::normalize(dvec3(1, 1, 2));
+    double before = 0;
+    for (int level = 2; level <= 5; ++level) {
+        std::string text;
+        const oracle::Mesh mesh = oracle::icosphere({0, 0, 0}, 2, level);
+        for (const oracle::Triangle& triangle : mesh)
+            for (const glm::vec3& p : triangle) {
+                text += "v " + json(p.x) + " " + json(p.y) + " " + json(p.z) + "\n";
+                text += "vn " + json(p.x) + " " + json(p.y) + " " + json(p.z) + "\n";
+            }
+        for (size_t i = 1; i <= mesh.size() * 3; i += 3) {
+            text += "f";
+            for (size_t k = i; k < i + 3; ++k) text += " " + std::to_string(k) + "//" + std::to_string(k);
+            text += "\n";
+        }
+        TemporaryDir dir;
+        dir.write("ball.obj", text);
+        const Picture picture =
+            renderScene(gpu, dir,
+                        "{" + view.text() + R"(,"lights":[{"type":"directional","direction":)" + json(-toLight) +
+                            R"(}],"materials":{"m":)" + kPlaster + R"(},"objects":[{"mesh":"ball.obj","material":"m"}]})");
+        double worst = 0;
+        for (uint32_t y = 0; y < 64; ++y)
+            for (uint32_t x = 0; x < 64; ++x) {
+                const dvec3 d = view.direction(x, y), o = view.position;
+                const double along = -glm::dot(o, d), distance = glm::length(o + along * d);
+                if (distance > 1.8) continue;
+                const dvec3 n = (o + d * (along - std::sqrt(4 - distance * distance))) / 2.0;
+                worst = std::max(worst, std::abs(picture.at(x, y).x - kPlasterWeight.x * std::max(glm::dot(n, toLight), 0.0)));
+            }
+        MESSAGE("level " << level << ": largest error " << worst);
+        if (level > 2) CHECK(worst < before / 2.5);
+        before = worst;
+    }
+    CHECK(before < 2e-3);
+}
+
+TEST_CASE("checkers alternate by the parity of world-space cells") {
+    GpuContext gpu;
+    if (!gpu) return;
+    for (const dvec3& offset : {dvec3(0), dvec3(100001, 0, -100000.5)})
+        for (const double scale : {1.0, 0.75}) {
+            CAPTURE(offset.x);
+            CAPTURE(scale);
+            const View view{offset + dvec3(0, 6, 0.01), offset, 60, 64};
+            const Picture picture =
+                renderScene(gpu, "{" + view.text() + R"(,"materials":{"a":)" + glow(1) + R"(,"b":)" + glow(2) +
+                                     R"(,"m":{"model":"checker","a":"a","b":"b","scale":)" + json(scale) + R"(}},"objects":[)" +
+                                     rectangle(offset + dvec3(-20, 0, -20), {0, 0, 40}, {40, 0, 0}, "m") + "]}");
+            checkPixels(picture, 0, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+                const dvec3 p = *meetFloor(view.position, view.direction(x, y));
+                const double cx = p.x / scale, cz = p.z / scale;
+                if (std::abs(cx - std::round(cx)) < 1e-4 || std::abs(cz - std::round(cz)) < 1e-4) return std::nullopt;
+                const bool even = std::fmod(std::abs(std::floor(cx) + std::floor(cz)), 2) == 0;
+                return dvec3(even ? 1 : 2);
+            });
+        }
+}
+
+TEST_CASE("checkers lie on the two axes across the normal") {
+    GpuContext gpu;
+    if (!gpu) return;
+    // Looking along -X and -Z at walls through the origin.
+    for (const int axis : {0, 2}) {
+        View view{{0, 0, 0}, {0, 0, 0}, 60, 64};
+        view.position[axis] = 6;
+        const dvec3 u = axis == 0 ? dvec3(0, 0, -40) : dvec3(40, 0, 0),
+                    corner = axis == 0 ? dvec3(0, -20, 20) : dvec3(-20, -20, 0);
+        const Picture picture = renderScene(gpu, "{" + view.text() + R"(,"materials":{"a":)" + glow(1) + R"(,"b":)" + glow(2) +
+                                                     R"(,"m":{"model":"checker","a":"a","b":"b"}},"objects":[)" +
+                                                     rectangle(corner, u, {0, 40, 0}, "m") + "]}");
+        checkPixels(picture, 0, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+            const dvec3 d = view.direction(x, y), p = view.position - d * (6 / d[axis]);
+            const double across = p[2 - axis];
+            if (std::abs(across - std::round(across)) < 1e-4 || std::abs(p.y - std::round(p.y)) < 1e-4) return std::nullopt;
+            return dvec3(std::fmod(std::abs(std::floor(across) + std::floor(p.y)), 2) == 0 ? 1 : 2);
+        });
+    }
+}
+
+TEST_CASE("an emitter shows its own radiance and nothing else does") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 0, 5}, {0, 0, 0}, 60, 32};
+    const Picture picture = renderScene(
+        gpu, "{" + view.text() + R"(,"materials":{"m":{"model":"pbr","baseColor":[1,1,1],"emissive":[1.5,2.25,3.125]},"dark":)" +
+                 kPlaster + R"(},"objects":[)" + rectangle({-20, -20, 0}, {20, 0, 0}, {0, 40, 0}, "m") + "," +
+                 rectangle({0, -20, 0}, {20, 0, 0}, {0, 40, 0}, "dark") + "]}");
+    for (uint32_t y = 0; y < 32; ++y)
+        for (uint32_t x = 0; x < 32; ++x) CHECK(picture.at(x, y) == (x < 16 ? glm::vec3(1.5f, 2.25f, 3.125f) : glm::vec3(0)));
+}
+
+namespace {
+
+/// Mirrors, glass, textures of light: something in every pixel, none of them alike.
+std::string busyScene(const View& view) {
+    return "{" + view.text() + R"(,"background":{"color":[0.1,0.2,0.4]},"lights":[)" +
+           pointLight({2, 5, 3}, {40, 40, 40}, "inverse-square") + R"(],"materials":{"m":)" + kPlaster + R"(,"glass":)" +
+           glass(1.5) + R"(,"mirror":{"model":"phong","diffuse":0.2,"reflect":0.7},)" +
+           R"("n":{"model":"phong","diffuse":0.5,"color":[0.2,0.4,0.8]},"tiles":{"model":"checker","a":"m","b":"n","scale":0.7}},"objects":[)" +
+           floorOf("tiles") + "," + sphere({-1, 1, 0}, 1, "glass") + "," + sphere({1.2, 0.8, -0.5}, 0.8, "mirror") + "]}";
+}
+
+const View kBusyView{{0, 2, 6}, {0, 0.7, 0}, 35, 45};
+
+}  // namespace
+
+TEST_CASE("a depth limit of 0 leaves mirrors and glass black") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    View view = kBusyView;
+    view.maxDepth = 0;
+    const LoadedScene scene(gpu, test::bakeScene(dir, busyScene(view)));
+    const Picture picture = scene.render();
+    CHECK(picture.stats.secondary_rays == 0);
+    CHECK(picture.at(14, 24) == glm::vec3(0));  // in the glass ball
+    minirt_render_desc desc = {};
+    desc.max_depth = 1;  // the limit plus one
+    CHECK(scene.render(desc) == picture);
+    desc.max_depth = 21;
+    CHECK(scene.render(desc).at(14, 24) != glm::vec3(0));
+}
+
+TEST_CASE("several samples are the mean of the single ones") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    const LoadedScene scene(gpu, test::bakeScene(dir, busyScene(kBusyView)));
+    std::vector<Picture> singles;
+    minirt_render_desc desc = {};
+    for (uint32_t i = 0; i < 8; ++i) {
+        desc.samples = 1;
+        desc.first_sample = i;
+        singles.push_back(scene.render(desc));
+    }
+    CHECK(!(singles[0] == singles[1]));
+    const auto mean = [&](uint32_t first, uint32_t count) {
+        desc.first_sample = first;
+        desc.samples = count;
+        return scene.render(desc);
+    };
+    const Picture whole = mean(0, 8), head = mean(0, 3), tail = mean(3, 5);
+    CHECK(whole.stats.primary_rays == 45 * 45 * 8);
+    double worstMean = 0, worstSplit = 0;
+    for (size_t i = 0; i < whole.rgba.size(); ++i) {
+        double sum = 0;
+        for (const Picture& single : singles) sum += static_cast<double>(single.rgba[i]);
+        const double value = whole.rgba[i];
+        worstMean = std::max(worstMean, std::abs(sum / 8 - value) / std::max(value, 1e-3));
+        worstSplit =
+            std::max(worstSplit, std::abs((3.0 * head.rgba[i] + 5.0 * tail.rgba[i]) / 8 - value) / std::max(value, 1e-3));
+    }
+    CHECK(worstMean < 1e-6);
+    CHECK(worstSplit < 1e-6);
+}
+
+TEST_CASE("a region equals the same part of the whole picture bit for bit") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    const LoadedScene scene(gpu, test::bakeScene(dir, busyScene(kBusyView)));
+    minirt_render_desc desc = {};
+    desc.samples = 2;
+    const Picture whole = scene.render(desc);
+    for (const minirt_region& region :
+         {minirt_region{3, 5, 17, 9}, minirt_region{0, 0, 1, 1}, minirt_region{44, 44, 1, 1}, minirt_region{8, 0, 37, 45}}) {
+        CAPTURE(region.x);
+        desc.region = region;
+        const Picture part = scene.render(desc);
+        CHECK(part.stats.primary_rays == uint64_t{2} * region.width * region.height);
+        for (uint32_t y = 0; y < 45; ++y)
+            for (uint32_t x = 0; x < 45; ++x) {
+                const bool inside = x >= region.x && x < region.x + region.width && y >= region.y && y < region.y + region.height;
+                REQUIRE(part.at(x, y) == (inside ? whole.at(x, y) : glm::vec3(0)));
+                REQUIRE(part.rgba[4 * (y * 45 + x) + 3] == (inside ? 1.0f : 0.0f));
+            }
+    }
+}
+
+TEST_CASE("both node layouts and kernels with all effects give the same picture") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    const Picture quantised =
+        LoadedScene(gpu, test::bakeScene(dir, busyScene(kBusyView), minirtc::LayoutChoice::quantised)).render();
+    const Picture exact = LoadedScene(gpu, test::bakeScene(dir, busyScene(kBusyView), minirtc::LayoutChoice::floating)).render();
+    CHECK(quantised == exact);
+    minirtc::BakeOptions options;
+    options.scene = dir.write("scene.json", busyScene(kBusyView)).string();
+    options.output = (dir.path() / "all.mrt").string();
+    options.allEffects = true;
+    options.quiet = true;
+    minirtc::bake(options);
+    CHECK(LoadedScene(gpu, options.output).render() == quantised);
+}
