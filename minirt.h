@@ -96,7 +96,7 @@ typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
 #define MINIRT_SPEC_COUNT 8
 
 /* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp). */
-#define MINIRT_WALK_WORDS 18
+#define MINIRT_WALK_WORDS 21
 #define MINIRT_TRAVERSAL_WORDS 10
 #define MINIRT_SEGMENT_WORDS 10
 
@@ -831,7 +831,7 @@ struct minirt_context {
     minirt_device_info info = {};
     VkPhysicalDeviceLimits limits = {};
     VkPhysicalDeviceMemoryProperties memoryProperties = {};
-    uint32_t subgroupSize = 32;
+    uint32_t stepBudget = 0;  // of a pixel in a dispatch
     double timestampPeriodNs = 0;  // 0: the queue has no timestamps
     uint64_t timestampMask = 0;
     VkCommandPool commandPool = VK_NULL_HANDLE;
@@ -1133,7 +1133,9 @@ inline void readDeviceProperties(minirt_context* c, uint32_t timestampBits) {
     c->vk.GetPhysicalDeviceProperties2(c->physicalDevice, &properties);
     c->vk.GetPhysicalDeviceMemoryProperties(c->physicalDevice, &c->memoryProperties);
     c->limits = properties.properties.limits;
-    c->subgroupSize = larger(subgroup.subgroupSize, 1u);
+    /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel that stays below
+       65535 / subgroup size can never get there. */
+    c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ? 65535u / larger(subgroup.subgroupSize, 1u) - 64u : 1u << 18;
     c->timestampPeriodNs = timestampBits ? static_cast<double>(c->limits.timestampPeriod) : 0.0;
     c->timestampMask = timestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << timestampBits) - 1;
     c->info = describe(c, c->physicalDevice);
@@ -1430,8 +1432,7 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     return check(c, c->vk.AllocateDescriptorSets(c->device, &allocate, &s->descriptorSet), "vkAllocateDescriptorSets");
 }
 
-/* How a kernel is specialised for the class of the device. Some CPU drivers end all loops of a subgroup together after 65535 passes
-   without saying so; a pixel that stays below 65535 / subgroup size can never get there. */
+/* How a kernel is specialised for the class of the device. */
 struct Specialisation {
     uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels, fetchTexels;
 };
@@ -1446,7 +1447,7 @@ inline Specialisation specialisation(const minirt_scene* scene) {
     s.stackIsShared = cpu && stackLevels * kBlockPixels * 4 <= c->limits.maxComputeSharedMemorySize;
     s.sharedStackWords = s.stackIsShared ? stackLevels * kBlockPixels : 1;
     s.privateStackWords = s.stackIsShared ? 1 : stackLevels;
-    s.stepBudget = cpu ? 65535u / c->subgroupSize - 64u : 1u << 18;
+    s.stepBudget = c->stepBudget;
     s.interleaveGroups = cpu;
     const VkDeviceSize range = c->limits.maxStorageBufferRange;
     s.fetchTexels = cpu || scene->buffers[MINIRT_BINDING_NODES].size > range || scene->buffers[MINIRT_BINDING_PRIMITIVES].size > range;

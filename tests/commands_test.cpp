@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const Words kCommands[] = {
     {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"},
-    {MINIRTC},         {MINIRT_RENDER},      {MINIRT_HELLO},
+    {MINIRTC},         {MINIRT_RENDER},      {MINIRT_COMPARE},      {MINIRT_HELLO},
 #ifdef MINIRT_VIEWER
     {MINIRT_VIEWER},
 #endif
@@ -414,4 +414,25 @@ TEST_CASE("hello prints the three numbers of a colour") {
     CHECK_FALSE((numbers >> more));
     CHECK(std::min({red, green, blue}) > 0);
     CHECK(red > blue);  // clay
+}
+
+TEST_CASE("compare measures the difference of two pictures and judges it") {
+    const test::TemporaryDir dir;
+    const auto picture = [&](const std::string& name, const std::string& size, const std::vector<float>& floats) {
+        const std::string bytes(reinterpret_cast<const char*>(floats.data()), floats.size() * sizeof(float));
+        return dir.write(name, "PF\n" + size + "\n-1.0\n" + bytes).string();
+    };
+    const std::string black = picture("black.pfm", "2 1", {0, 0, 0, 0, 0, 0});
+    const std::string spot = picture("spot.pfm", "2 1", {0, 0, 0, 0, 0.5f, 0});
+    const Outcome same = run({MINIRT_COMPARE, black, black, "--max-rmse", "0"});
+    CHECK(same.exitCode == 0);
+    CHECK(contains(same.out, "rmse 0  largest 0  pixels over 0.001: 0 of 2"));
+    const Outcome different = run({MINIRT_COMPARE, black, spot});
+    CHECK(different.exitCode == 0);
+    CHECK(contains(different.out, "rmse 0.204124  largest 0.5  pixels over 0.001: 1 of 2"));  // sqrt(0.25 / 6)
+    CHECK(run({MINIRT_COMPARE, black, spot, "--max-rmse", "0.2"}).exitCode == 1);
+    checkRefused({MINIRT_COMPARE, black, picture("tall.pfm", "1 2", {0, 0, 0, 0, 0, 0})}, {"tall.pfm", "same size"});
+    checkRefused({MINIRT_COMPARE, black, picture("short.pfm", "2 1", {0, 0, 0})}, {"short.pfm", "last pixel"});
+    checkRefused({MINIRT_COMPARE, black, dir.write("text.pfm", "hello").string()}, {"text.pfm", ".pfm"});
+    checkRefused({MINIRT_COMPARE, black, (dir.path() / "none.pfm").string()}, {"none.pfm", "exist"});
 }

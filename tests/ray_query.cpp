@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "runtime_hooks.hpp"
+
 // The insides of the runtime are used here. The program's copy of it is this one: linked first, it leaves the compiler's aside.
 #define MINIRT_IMPLEMENTATION
 #include "minirt.h"
@@ -138,6 +140,28 @@ std::vector<QueryHit> RayQuery::trace(const std::vector<oracle::Ray>& rays, Quer
 
 const QueryStats& RayQuery::stats() const {
     return device_->stats;
+}
+
+uint32_t stepBudget(const minirt_context* context) {
+    return context->stepBudget;
+}
+
+void setStepBudget(minirt_context* context, uint32_t steps) {
+    context->stepBudget = steps;
+}
+
+void specialiseAsGpu(minirt_context* context) {
+    context->info.is_cpu = 0;
+}
+
+void loseDevice(minirt_context* context) {
+    context->lost = true;
+}
+
+void breakValidation(minirt_context* context) {
+    detail::Buffer buffer;
+    detail::createBuffer(context, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, detail::Placement::device, buffer);
+    detail::destroyBuffer(context, buffer);
 }
 
 }  // namespace test

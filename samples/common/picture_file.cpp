@@ -11,10 +11,13 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 namespace {
 
-std::string ending(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+std::string ending(const std::string& path) {
+    return std::filesystem::path(path).extension().string();
+}
 
 void appendBytes(void* context, void* data, int size) {
     auto* out = static_cast<std::vector<uint8_t>*>(context);
@@ -31,7 +34,8 @@ std::vector<float> rgbOf(const Picture& picture) {
 
 std::vector<uint8_t> encodePng(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb) {
     std::vector<uint8_t> bytes;
-    stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), 3, rgb.data(), static_cast<int>(width) * 3);
+    stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
+                           static_cast<int>(width) * 3);
     return bytes;
 }
 
@@ -154,4 +158,28 @@ std::string whyNotWritable(const std::string& path) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     if (access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return "";
     return path + ": cannot be written: " + std::strerror(errno) + "; is its folder there and writable?";
+}
+
+std::string readPfm(const std::string& path, Picture& picture) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return path + ": cannot be opened; does the file exist?";
+    std::string kind;
+    double scale = 0;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    file >> kind >> width >> height >> scale;
+    file.get();  // the line break before the floats
+    constexpr uint32_t kMaxSide = 16384;
+    if (!file || kind != "PF" || scale >= 0 || width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+        return path + ": no little-endian colour .pfm; minirt-render writes such files";
+    picture.width = width;
+    picture.height = height;
+    picture.rgba.assign(size_t{width} * height * 4, 1.0f);
+    std::vector<float> row(size_t{width} * 3);
+    for (size_t y = height; y-- > 0;) {
+        if (!file.read(reinterpret_cast<char*>(row.data()), static_cast<std::streamsize>(row.size() * sizeof(float))))
+            return path + ": ends before its last pixel";
+        for (size_t x = 0; x < width; ++x) std::copy_n(&row[3 * x], 3, &picture.rgba[(y * width + x) * 4]);
+    }
+    return "";
 }

@@ -18,6 +18,9 @@ bool isPictureName(const std::string& path);
 /// Returns "" or what went wrong.
 std::string writePicture(const std::string& path, const Picture& picture);
 
+/// Reads a little-endian colour .pfm with alpha 1. Returns "" or what went wrong.
+std::string readPfm(const std::string& path, Picture& picture);
+
 /// The sRGB byte of a linear value; NaN is 0.
 uint8_t srgbByte(float linear);
 

@@ -24,6 +24,7 @@ struct TreeWalk {
     float hitT;
     uint light;     // the next light to look at
     vec3 unshadowed;  // what the shadow ray's light adds unless it is blocked
+    vec3 radiance;    // gathered so far; summed in one order wherever the work was cut, so that a picture does not depend on it
 };
 
 uint waitingWord(uint index) { return MINIRT_WALK_WORDS + MINIRT_TRAVERSAL_WORDS + STACK_LEVELS + index * MINIRT_SEGMENT_WORDS; }
@@ -54,6 +55,7 @@ void saveWalk(uint slot, TreeWalk walk, Traversal ray) {
     putFloat(slot, word, walk.hitT);
     putWord(slot, word, walk.light);
     putVec3(slot, word, walk.unshadowed);
+    putVec3(slot, word, walk.radiance);
     putTraversal(slot, word, ray);
 }
 
@@ -67,6 +69,7 @@ void loadWalk(uint slot, inout TreeWalk walk, inout Traversal ray) {
     walk.hitT = takeFloat(slot, word);
     walk.light = takeWord(slot, word);
     walk.unshadowed = takeVec3(slot, word);
+    walk.radiance = takeVec3(slot, word);
     ray = takeTraversal(slot, word, walk.phase == PHASE_SHADOW);
 }
 
@@ -131,7 +134,7 @@ Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Surface surface,
 void main() {
     PixelTask task = pixelTask();
     if (!task.valid) return;
-    TreeWalk walk = TreeWalk(PHASE_DONE, 0u, Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u), MINIRT_NONE, 0.0, 0u, vec3(0.0));
+    TreeWalk walk = TreeWalk(PHASE_DONE, 0u, Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u), MINIRT_NONE, 0.0, 0u, vec3(0.0), vec3(0.0));
     Traversal ray;
     if (frame.sampling.w != 0u) {
         loadWalk(task.slot, walk, ray);
@@ -140,7 +143,6 @@ void main() {
         vec3 direction = cameraDirection(task.pixel, frame.sampling.x);
         ray = traceSegment(walk, Segment(frame.position.xyz, direction, vec3(1.0), 0u));
     }
-    vec3 radiance = vec3(0.0);
     uvec2 rays = uvec2(0u);
     uint steps = 0u;
     while (walk.phase != PHASE_DONE) {
@@ -152,9 +154,9 @@ void main() {
             walk.hitSlot = ray.slot;
             walk.hitT = ray.t;
             walk.light = 0u;
-            if (ray.slot == MINIRT_NONE) radiance += walk.segment.throughput * backgroundRadiance(walk.segment.direction);
+            if (ray.slot == MINIRT_NONE) walk.radiance += walk.segment.throughput * backgroundRadiance(walk.segment.direction);
         } else if (ray.slot == MINIRT_NONE) {
-            radiance += walk.unshadowed;
+            walk.radiance += walk.unshadowed;
         }
         bool hit = walk.hitSlot != MINIRT_NONE;
         Surface surface = surfaceAt(walk.segment.origin, walk.segment.direction, hit ? walk.hitSlot : 0u, walk.hitT);
@@ -162,7 +164,7 @@ void main() {
         float side = dot(walk.segment.direction, surface.ng) < 0.0 ? 1.0 : -1.0;
         vec3 ng = surface.ng * side;
         vec3 n = surface.n * side;
-        if (arrived && hit) radiance += walk.segment.throughput * emission(material);
+        if (arrived && hit) walk.radiance += walk.segment.throughput * emission(material);
         if (hit && walk.light < lightCount()) {
             ray = traceShadow(walk, steps, surface, material, ng, n);
             rays.x += isDone(ray) ? 0u : 1u;
@@ -174,7 +176,7 @@ void main() {
         }
     }
     bool finished = walk.phase == PHASE_DONE;
-    addToFilm(task.filmIndex, radiance, finished, rays);
+    addToFilm(task.filmIndex, finished ? walk.radiance : vec3(0.0), finished, rays);
     saveWalk(task.slot, walk, ray);
     if (!finished) atomicAdd(counters.pending, 1u);
 }

@@ -57,7 +57,7 @@ PlaneHit intersectPlane(vec3 direction, vec3 toVertex, vec3 u, vec3 v) {
 /// Intersects the line of the ray, whose direction is of unit length, with the triangle v0 v1 v2, for hits with 0 < t < tMax. Two
 /// triangles that share an edge leave no gap between them: the edge functions are evaluated alike on both sides, without contraction.
 /// A hit whose t could be negative but for rounding is a miss, so a ray that starts beside a triangle does not find it again; the
-/// plane decides this, as t from the edge functions is ten times less certain. A line in the triangle's plane misses.
+/// plane decides this, as it is ten times more certain of the side than a mean of the vertices' depths. A line in the triangle's plane misses.
 TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v2, real tMax) {
     vec3 a = permute(v0 - origin, shear.axis);
     vec3 b = permute(v1 - origin, shear.axis);
@@ -81,7 +81,10 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
     // Seen edge-on, all that is certain is that a hit lies between the nearest and the farthest vertex.
     bool ahead = plane.steep ? plane.ahead : nearest > errorGamma(4) * farthest;
     TriangleHit hit;
-    hit.t = clamp(plane.steep ? plane.t : nearest, nearest, farthest);
+    // The mean of the vertices' depths never leaves their range, so it agrees with the boxes around the triangle; right before the origin
+    // its rounding can cost the sign, which the plane knows.
+    real mean = clamp(dot(vec3(e0, e1, e2), depths) * inverse, nearest, farthest);
+    hit.t = mean > real(0) || !plane.steep ? mean : plane.t;
     hit.b1 = e1 * inverse;
     hit.b2 = e2 * inverse;
     hit.hit = inside && ahead && hit.t > real(0) && hit.t < tMax;

@@ -1,0 +1,232 @@
+// Some CPU drivers end all loops of an invocation after 65,535 passes without a word. These scenes need several times as many for each
+// pixel and have values known in closed form: they fail where pictures are cut short.
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <functional>
+
+#include "render_scene.hpp"
+#include "runtime_hooks.hpp"
+
+using glm::dvec3;
+using test::GpuContext;
+using test::LoadedScene;
+using test::Picture;
+using test::TemporaryDir;
+
+namespace {
+
+constexpr uint64_t kManySteps = 200000;
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
+}
+
+/// `count` needles along the diagonal of the unit cube, in a bundle one millimetre thick: the box of each is nearly the whole cube.
+std::string needles(int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+        const double x = 1e-3 * std::fmod(i * 0.7548776662466927, 1.0), y = 1e-3 * std::fmod(i * 0.5698402909980532, 1.0);
+        const std::string a = number(x) + " " + number(y) + " 0", b = number(1 + x) + " " + number(1 + y) + " 1";
+        text += "v " + a + "\nv " + b + "\nv " + number(1 + x + 1e-5) + " " + number(1 + y) + " 1\n";
+        text += "f -3 -2 -1\n";
+    }
+    return text;
+}
+
+/// Looks through the cube of needles beside all of them, at a wall that shines with 2.5. The left half of the picture ends at a
+/// wall before the cube, of 1.5, so that neighbours differ in length.
+std::string needleScene() {
+    return R"({"camera":{"position":[0.8,0.25,3],"target":[0.8,0.25,0],"vfov":4},"render":{"size":[8,8]},
+        "materials":{"needle":{"model":"pbr","emissive":[100,100,100]},"far":{"model":"pbr","emissive":[2.5,2.5,2.5]},
+                     "near":{"model":"pbr","emissive":[1.5,1.5,1.5]}},
+        "objects":[{"mesh":"needles.obj","material":"needle"},
+                   {"rectangle":{"origin":[-5,-5,-2],"u":[10,0,0],"v":[0,10,0]},"material":"far"},
+                   {"rectangle":{"origin":[-4.2,-5,-1],"u":[5,0,0],"v":[0,10,0]},"material":"near"}]})";
+}
+
+constexpr int kNeedles = 160000;
+
+bool isNeedlePicture(const Picture& picture) {
+    for (uint32_t i = 0; i < 64; ++i)
+        if (picture.at(i % 8, i / 8) != glm::vec3(i % 8 < 4 ? 1.5f : 2.5f)) return false;
+    return true;
+}
+
+constexpr int kLights = 240;
+constexpr uint32_t kBounces = 200;
+
+double lightHeight(int i) {
+    return 0.1 + 0.8 * i / kLights;  // in thousandths it is no binary fraction; the light is where float puts it
+}
+
+/// Two mirrors that face each other, 1 m apart, lit by lights on the axis between them; the camera looks along it.
+std::string mirrorScene() {
+    std::string lights;
+    for (int i = 0; i < kLights; ++i)
+        lights += std::string(i ? "," : "") + R"({"type":"point","position":[0,0,)" + number(lightHeight(i)) +
+                  R"(],"intensity":[1,1,1],"falloff":"none"})";
+    return R"({"camera":{"position":[0,0,0.5],"target":[0,0,0],"vfov":0.5},"render":{"size":[8,8],"maxDepth":)" +
+           std::to_string(kBounces) + R"(},"lights":[)" + lights +
+           R"(],"materials":{"m":{"model":"phong","diffuse":0.0078125,"reflect":0.984375}},
+        "objects":[{"rectangle":{"origin":[-4,-4,0],"u":[8,0,0],"v":[0,8,0]},"material":"m"},
+                   {"rectangle":{"origin":[-4,-4,1],"u":[0,8,0],"v":[8,0,0]},"material":"m"}]})";
+}
+
+/// The sum over all bounces of what the lights add there, the path unfolded.
+double mirrorValue(uint32_t x, uint32_t y) {
+    const double half = std::tan(0.25 * 3.14159265358979323846 / 180);
+    const double u = ((x + 0.5) / 4 - 1) * half, v = ((y + 0.5) / 4 - 1) * half;
+    const double slope = std::sqrt(u * u + v * v);
+    double sum = 0, throughput = 1;
+    for (uint32_t k = 0; k <= kBounces; ++k, throughput *= 0.984375) {
+        const double aside = slope * (0.5 + k);
+        for (int i = 0; i < kLights; ++i) {
+            const double height = k % 2 == 0 ? lightHeight(i) : 1 - lightHeight(i);
+            sum += throughput * 0.0078125 * height / std::sqrt(height * height + aside * aside);
+        }
+    }
+    return sum;
+}
+
+double mirrorError(const Picture& picture) {
+    double worst = 0;
+    for (uint32_t i = 0; i < 64; ++i) {
+        const double expected = mirrorValue(i % 8, i / 8);
+        worst = std::max(worst, std::abs(picture.at(i % 8, i / 8).x / expected - 1));
+    }
+    return worst;
+}
+
+/// Mirrors, glass and many objects: rays of all kinds, waiting ones too.
+std::string smallScene() {
+    std::string balls;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = i * 2.399963, radius = 0.35 * std::sqrt(i + 0.5);
+        balls += R"(,{"sphere":{"center":[)" + number(radius * std::cos(angle)) + ",0.2," + number(radius * std::sin(angle)) +
+                 R"(],"radius":0.2},"material":")" +
+                 (i % 3 == 0   ? "glass"
+                  : i % 3 == 1 ? "mirror"
+                               : "matt") +
+                 "\"}";
+    }
+    return R"({"camera":{"position":[0,2,5],"target":[0,0,0],"vfov":45},"render":{"size":[40,40],"maxDepth":8},"background":{"color":[0.2,0.3,0.5]},
+        "lights":[{"type":"point","position":[3,4,2],"intensity":[20,20,20]},{"type":"directional","direction":[1,-2,-1]}],
+        "materials":{"glass":{"model":"pbr","roughness":0,"transmission":1},"mirror":{"model":"phong","diffuse":0.1,"reflect":0.8},
+                     "matt":{"model":"phong","color":[0.7,0.3,0.2]}},
+        "objects":[{"rectangle":{"origin":[-6,0,-6],"u":[0,0,12],"v":[12,0,0]},"material":"matt"})" +
+           balls + "]}";
+}
+
+}  // namespace
+
+TEST_CASE("a traversal past a hundred thousand needles is not cut short") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    dir.write("needles.obj", needles(kNeedles));
+    const LoadedScene scene(gpu, test::bakeScene(dir, needleScene()));
+    const Picture picture = scene.render();
+    CHECK(isNeedlePicture(picture));
+    // One block: every resumed dispatch spent the budget of some pixel.
+    CHECK(picture.stats.resumed_dispatches * test::stepBudget(gpu.get()) > kManySteps);
+    CHECK(picture.stats.traversal_cap == 0);
+    MESSAGE("steps: " << picture.stats.resumed_dispatches * test::stepBudget(gpu.get()));
+}
+
+TEST_CASE("a path of many bounces between many lights is not cut short") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    const LoadedScene scene(gpu, test::bakeScene(dir, mirrorScene()));
+    const Picture picture = scene.render();
+    const double error = mirrorError(picture);
+    MESSAGE("largest error " << error << "; steps: " << picture.stats.resumed_dispatches * test::stepBudget(gpu.get()));
+    CHECK(error < 3e-5);  // of a sum of fifty thousand floats
+    CHECK(picture.stats.resumed_dispatches * test::stepBudget(gpu.get()) > kManySteps);
+    CHECK(picture.stats.traversal_cap == 0);
+    CHECK(picture.stats.secondary_rays == 64 * kBounces);
+    CHECK(picture.stats.shadow_rays == 64ull * kLights * (kBounces + 1));
+}
+
+namespace {
+
+/// Whether `works` in a process of its own, for it may crash or hang; a minute is too long.
+bool worksApart(const std::function<bool()>& works) {
+    const pid_t child = fork();
+    if (child == 0) {
+        for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) signal(crash, SIG_DFL);
+        signal(SIGALRM, SIG_DFL);
+        alarm(60);
+        bool worked = false;
+        try {
+            worked = works();
+        } catch (const std::exception&) {
+        }
+        _exit(worked ? 0 : 1);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+Picture renderWithoutBudget(const TemporaryDir& dir, const std::string& json) {
+    GpuContext gpu(0);
+    test::setStepBudget(gpu.get(), 1u << 20);
+    return LoadedScene(gpu, test::bakeScene(dir, json)).render();
+}
+
+}  // namespace
+
+TEST_CASE("without the budget this driver cuts the same pictures short") {
+    {
+        GpuContext gpu;
+        if (!gpu) return;
+    }
+    TemporaryDir dir;
+    dir.write("needles.obj", needles(kNeedles));
+    const bool needlesRight = worksApart([&] { return isNeedlePicture(renderWithoutBudget(dir, needleScene())); });
+    const bool mirrorsRight = worksApart([&] { return mirrorError(renderWithoutBudget(dir, mirrorScene())) < 3e-5; });
+    if (needlesRight && mirrorsRight) return test::skip("this driver lets loops run on");
+    CHECK(!needlesRight);
+    CHECK(!mirrorsRight);
+}
+
+TEST_CASE("any budget of steps gives the same picture bit for bit") {
+    TemporaryDir dir;
+    Picture whole;
+    for (const uint32_t steps : {0u, 2u, 3u, 7u, 64u, 500u}) {
+        CAPTURE(steps);
+        GpuContext gpu;
+        if (!gpu) return;
+        if (steps) test::setStepBudget(gpu.get(), steps);
+        const Picture picture = LoadedScene(gpu, test::bakeScene(dir, smallScene())).render();
+        if (steps == 0) {
+            whole = picture;
+            CHECK(whole.stats.resumed_dispatches == 0);
+            continue;
+        }
+        CHECK(picture == whole);
+        CHECK(picture.stats.resumed_dispatches > 0);
+        CHECK(picture.stats.shadow_rays == whole.stats.shadow_rays);
+        CHECK(picture.stats.secondary_rays == whole.stats.secondary_rays);
+    }
+}
+
+TEST_CASE("kernels specialised as for a GPU give the same picture bit for bit") {
+    TemporaryDir dir;
+    Picture pictures[2];
+    for (const bool asGpu : {false, true}) {
+        GpuContext gpu;
+        if (!gpu) return;
+        if (asGpu) test::specialiseAsGpu(gpu.get());
+        test::setStepBudget(gpu.get(), 500);
+        pictures[asGpu] = LoadedScene(gpu, test::bakeScene(dir, smallScene())).render();
+    }
+    CHECK(pictures[0] == pictures[1]);
+}

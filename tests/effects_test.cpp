@@ -1,0 +1,242 @@
+#include "effects.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+#include <thread>
+
+#include "kernel.hpp"
+#include "minirt.h"
+
+using namespace minirtc;
+
+namespace {
+
+/// A scene of one triangle of object 'thing' with one material, 'paint'; no lights, a constant background.
+struct Small {
+    Scene scene;
+    Geometry geometry;
+    bool floatNodes = false;
+
+    Small() {
+        scene.materials.resize(1);
+        scene.materials[0].name = "paint";
+        Primitive triangle;
+        triangle.p = {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)};
+        geometry.primitives = {triangle};
+        geometry.objectNames = {"thing"};
+    }
+
+    Material& paint() { return scene.materials[0]; }
+    Small& light(LightType type) {
+        Light light;
+        light.type = type;
+        scene.lights.push_back(light);
+        return *this;
+    }
+    uint32_t image(const std::string& name) {
+        Image image;
+        image.name = name;
+        scene.images.push_back(image);
+        return static_cast<uint32_t>(scene.images.size() - 1);
+    }
+    EffectSet effects() const { return analyseEffects(scene, geometry, floatNodes); }
+};
+
+std::string reason(const EffectSet& effects, Effect effect) {
+    return effects[effect].reason;
+}
+
+/// The names of the effects that are in, with a blank behind each.
+std::string included(const EffectSet& effects) {
+    std::string names;
+    for (size_t i = 0; i < kEffectCount; ++i) {
+        if (effects.choices[i].included) names += std::string(effectInfo(static_cast<Effect>(i)).name) + " ";
+    }
+    return names;
+}
+
+EffectSet only(std::initializer_list<Effect> wanted) {
+    EffectSet effects;
+    for (const Effect effect : wanted) effects[effect].included = true;
+    return effects;
+}
+
+int bindingCount(uint32_t bindings) {
+    int count = 0;
+    for (; bindings; bindings &= bindings - 1) ++count;
+    return count;
+}
+
+/// Compiles, optimises and validates a kernel for each set on all cores; the log of the first failure, or "".
+std::string compileAll(const std::vector<EffectSet>& sets) {
+    std::atomic<size_t> next{0};
+    std::vector<std::string> failures(sets.size());
+    const auto work = [&] {
+        for (size_t i = next++; i < sets.size(); i = next++) {
+            try {
+                compileKernel("whitted", sets[i]);
+            } catch (const std::exception& e) {
+                failures[i] = included(sets[i]) + ": " + e.what();
+            }
+        }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    const auto failed = std::find_if(failures.begin(), failures.end(), [](const std::string& s) { return !s.empty(); });
+    return failed == failures.end() ? "" : *failed;
+}
+
+}  // namespace
+
+TEST_CASE("a scene that calls for nothing has no effect and says why") {
+    const EffectSet effects = Small().effects();
+    CHECK(included(effects).empty());
+    for (size_t i = 0; i < kEffectCount; ++i) CHECK(effects.choices[i].reason == effectInfo(static_cast<Effect>(i)).absent);
+}
+
+TEST_CASE("each property of a material calls for its effect and names material and object") {
+    const std::string because = "material 'paint' of thing";
+    const glm::vec3 some(0.1f, 0, 0);
+    SUBCASE("reflection") {
+        Small small;
+        small.paint().reflect = some;
+        CHECK(included(small.effects()) == "reflection ");
+        CHECK(reason(small.effects(), Effect::reflection) == because);
+    }
+    SUBCASE("refraction") {
+        Small small;
+        small.paint().transmit = some;
+        CHECK(included(small.effects()) == "refraction ");
+        CHECK(reason(small.effects(), Effect::refraction) == because);
+        CHECK(small.effects().splits());
+    }
+    SUBCASE("Fresnel, with something to split only") {
+        Small small;
+        small.paint().fresnel = true;
+        CHECK(included(small.effects()).empty());
+        small.paint().transmit = some;
+        CHECK(included(small.effects()) == "refraction fresnel ");
+        CHECK(reason(small.effects(), Effect::fresnel) == because);
+    }
+    SUBCASE("emission") {
+        Small small;
+        small.paint().emission = some;
+        CHECK(included(small.effects()) == "emission ");
+        CHECK(reason(small.effects(), Effect::emission) == because);
+    }
+    SUBCASE("highlights, where there is light only") {
+        Small small;
+        small.paint().specular = some;
+        CHECK(included(small.effects()).empty());
+        CHECK(included(small.light(LightType::point).effects()) == "point_lights highlights ");
+        CHECK(reason(small.effects(), Effect::highlights) == because);
+    }
+    SUBCASE("textures, on lit diffuse surfaces only") {
+        Small small;
+        small.paint().diffuseTexture = small.image("wood.png");
+        small.paint().diffuse = some;
+        CHECK(included(small.effects()).empty());
+        small.light(LightType::directional);
+        CHECK(included(small.effects()) == "textures directional_lights ");
+        CHECK(reason(small.effects(), Effect::textures) == because);
+        small.paint().diffuse = glm::vec3(0);
+        CHECK(included(small.effects()) == "directional_lights ");
+    }
+}
+
+TEST_CASE("a checker calls for itself and for what its two materials call for") {
+    Small small;
+    small.scene.materials.resize(3);
+    small.scene.materials[1].name = "mirror";
+    small.scene.materials[1].reflect = glm::vec3(1);
+    small.scene.materials[2].name = "lamp";
+    small.scene.materials[2].emission = glm::vec3(1);
+    small.paint().checker = true;
+    small.paint().checkerA = 1;
+    small.paint().checkerB = 2;
+    const EffectSet effects = small.effects();
+    CHECK(included(effects) == "checker reflection emission ");
+    CHECK(reason(effects, Effect::checker) == "material 'paint' of thing");
+    CHECK(reason(effects, Effect::reflection) == "material 'mirror' of thing");
+    CHECK(reason(effects, Effect::emission) == "material 'lamp' of thing");
+}
+
+TEST_CASE("materials that no object uses call for nothing") {
+    Small small;
+    small.scene.materials.resize(2);
+    small.scene.materials[1].reflect = glm::vec3(1);
+    small.scene.materials[1].transmit = glm::vec3(1);
+    CHECK(included(small.effects()).empty());
+}
+
+TEST_CASE("geometry and lights and background and nodes call for theirs") {
+    Small small;
+    SUBCASE("spheres") {
+        small.geometry.objectNames.push_back("ball");
+        small.geometry.primitives.push_back(small.geometry.primitives[0]);
+        small.geometry.primitives[1].isSphere = true;
+        small.geometry.primitives[1].object = 1;
+        CHECK(included(small.effects()) == "spheres ");
+        CHECK(reason(small.effects(), Effect::spheres) == "ball");
+    }
+    SUBCASE("smooth normals") {
+        small.geometry.anySmooth = true;
+        CHECK(included(small.effects()) == "smooth_normals ");
+        CHECK(reason(small.effects(), Effect::smoothNormals) == "vertex normals that differ from their face's");
+    }
+    SUBCASE("lights") {
+        small.light(LightType::directional).light(LightType::point);
+        CHECK(included(small.effects()) == "point_lights directional_lights ");
+        CHECK(reason(small.effects(), Effect::directionalLights) == "light 0");
+        CHECK(reason(small.effects(), Effect::pointLights) == "light 1");
+    }
+    SUBCASE("background") {
+        small.scene.background.image = small.image("sky.hdr");
+        CHECK(included(small.effects()) == "background_image ");
+        CHECK(reason(small.effects(), Effect::backgroundImage) == "background 'sky.hdr'");
+    }
+    SUBCASE("float nodes") {
+        small.floatNodes = true;
+        CHECK(included(small.effects()) == "float_nodes ");
+    }
+}
+
+TEST_CASE("asking for all effects adds those missing and keeps the reasons of the others") {
+    Small small;
+    small.paint().reflect = glm::vec3(1);
+    EffectSet effects = small.effects();
+    includeAll(effects);
+    CHECK(reason(effects, Effect::reflection) == "material 'paint' of thing");
+    CHECK(reason(effects, Effect::spheres) == "asked for by --all-effects");
+    CHECK_FALSE(effects.has(Effect::floatNodes));  // a layout, not an addition
+    effects[Effect::floatNodes].included = true;
+    CHECK(
+        std::all_of(effects.choices.begin(), effects.choices.end(), [](const EffectChoice& choice) { return choice.included; }));
+}
+
+TEST_CASE("a kernel without effects is smaller and has fewer bindings than one with all") {
+    EffectSet all;
+    includeAll(all);
+    const Kernel pruned = compileKernel("whitted", EffectSet());
+    const Kernel full = compileKernel("whitted", all);
+    MESSAGE("words of SPIR-V: ", pruned.spirv.size(), " without effects, ", full.spirv.size(),
+            " with all; bindings: ", bindingCount(pruned.bindings), " and ", bindingCount(full.bindings));
+    CHECK(pruned.spirv.size() * 4 < full.spirv.size() * 3);
+    CHECK(full.bindings == (1u << MINIRT_BINDING_COUNT) - 1);
+    const uint32_t ofEffects = 1u << MINIRT_BINDING_NORMALS | 1u << MINIRT_BINDING_UVS | 1u << MINIRT_BINDING_LIGHTS |
+                               1u << MINIRT_BINDING_IMAGES | 1u << MINIRT_BINDING_TEXELS;
+    CHECK(pruned.bindings == (full.bindings & ~ofEffects));
+}
+
+TEST_CASE("every effect compiles alone and in every pair") {
+    std::vector<EffectSet> sets;
+    for (size_t a = 0; a < kEffectCount; ++a) {
+        for (size_t b = a; b < kEffectCount; ++b) sets.push_back(only({static_cast<Effect>(a), static_cast<Effect>(b)}));
+    }
+    CHECK(sets.size() == kEffectCount * (kEffectCount + 1) / 2);
+    CHECK(compileAll(sets) == "");
+}

@@ -1,0 +1,135 @@
+#include <doctest/doctest.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "kernel.hpp"
+#include "minirt.h"
+#include "shader_library.hpp"
+
+using namespace minirtc;
+
+namespace {
+
+struct Layout {
+    size_t size = 0;
+    std::map<std::string, size_t> offsets;
+    bool operator==(const Layout& other) const { return size == other.size && offsets == other.offsets; }
+};
+
+std::ostream& operator<<(std::ostream& out, const Layout& layout) {
+    for (const auto& [member, offset] : layout.offsets) out << member << " at " << offset << ", ";
+    return out << "size " << layout.size;
+}
+
+/// Where kernels hold a struct.
+const std::map<std::string, std::string> kVariables = {
+    {"minirt_scene_rows", "scene"}, {"minirt_material", "materials"}, {"minirt_light", "lights"},
+    {"minirt_image", "images"},     {"minirt_frame", "frame"},        {"minirt_counters", "counters"},
+};
+
+#define AT(type, member) \
+    { #member, offsetof(type, member) }
+
+/// Each struct of the slice as C++ lays it out.
+const std::map<std::string, Layout> kInCpp = {
+    {"minirt_scene_rows",
+     {sizeof(minirt_scene_rows),
+      {AT(minirt_scene_rows, gridOrigin), AT(minirt_scene_rows, gridScale), AT(minirt_scene_rows, gridPlanes),
+       AT(minirt_scene_rows, background), AT(minirt_scene_rows, counts)}}},
+    {"minirt_material",
+     {sizeof(minirt_material),
+      {AT(minirt_material, diffuse), AT(minirt_material, specular), AT(minirt_material, reflect), AT(minirt_material, transmit),
+       AT(minirt_material, emission), AT(minirt_material, checker), AT(minirt_material, options)}}},
+    {"minirt_light",
+     {sizeof(minirt_light), {AT(minirt_light, position), AT(minirt_light, intensity), AT(minirt_light, options)}}},
+    {"minirt_image", {sizeof(minirt_image), {AT(minirt_image, extent), AT(minirt_image, scale)}}},
+    {"minirt_frame",
+     {sizeof(minirt_frame),
+      {AT(minirt_frame, position), AT(minirt_frame, forward), AT(minirt_frame, right), AT(minirt_frame, up),
+       AT(minirt_frame, size), AT(minirt_frame, region), AT(minirt_frame, blocks), AT(minirt_frame, sampling)}}},
+    {"minirt_counters",
+     {sizeof(minirt_counters),
+      {AT(minirt_counters, pending), AT(minirt_counters, nan_pixels), AT(minirt_counters, segment_overflow),
+       AT(minirt_counters, volume_overflow)}}},
+};
+
+/// The structs of the slice by their text, with their members.
+std::map<std::string, std::set<std::string>> structsOfSlice() {
+    const std::string slice = std::regex_replace(shaderLibrary().at("layout"), std::regex(R"(/\*[^]*?\*/)"), "");
+    std::map<std::string, std::set<std::string>> structs;
+    const std::regex structPattern(R"(struct (\w+) \{([^}]*)\})");
+    const std::regex memberPattern(R"(\w+ (\w+);)");
+    for (std::sregex_iterator s(slice.begin(), slice.end(), structPattern); s != std::sregex_iterator(); ++s) {
+        const std::string body = (*s)[2];
+        for (std::sregex_iterator m(body.begin(), body.end(), memberPattern); m != std::sregex_iterator(); ++m) {
+            structs[(*s)[1]].insert((*m)[1]);
+        }
+    }
+    return structs;
+}
+
+/// Each variable of a shared struct as the kernel with every effect lays it out.
+std::map<std::string, Layout> reflectKernel() {
+    glslang::InitializeProcess();
+    EffectSet effects;
+    includeAll(effects);
+    const std::string source = composeKernel("whitted", effects);
+    const char* text = source.c_str();
+    glslang::TShader shader(EShLangCompute);
+    shader.setStrings(&text, 1);
+    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+    REQUIRE_MESSAGE(shader.parse(GetDefaultResources(), 460, false, messages), shader.getInfoLog());
+    glslang::TProgram program;
+    program.addShader(&shader);
+    REQUIRE(program.link(messages));
+    REQUIRE(program.buildReflection(EShReflectionAllBlockVariables));
+
+    std::map<std::string, Layout> layouts;
+    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+        const glslang::TObjectReflection& variable = program.getUniform(i);
+        const size_t dot = variable.name.find('.');
+        if (dot == std::string::npos) continue;
+        Layout& layout = layouts[variable.name.substr(0, dot)];
+        layout.offsets[variable.name.substr(dot + 1)] = static_cast<size_t>(variable.offset);
+        layout.size = static_cast<size_t>(program.getUniformBlock(variable.index).size);  // of an array: one element
+    }
+    return layouts;
+}
+
+}  // namespace
+
+TEST_CASE("the kernel lays out every shared struct as C++ does") {
+    const std::map<std::string, Layout> reflected = reflectKernel();
+    for (const auto& [name, layout] : kInCpp) {
+        CAPTURE(name);
+        const std::string& variable = kVariables.at(name);
+        REQUIRE(reflected.count(variable) == 1);
+        CHECK(reflected.at(variable) == layout);
+    }
+}
+
+TEST_CASE("this test knows every struct of the shared slice with all members") {
+    std::map<std::string, std::set<std::string>> known;
+    for (const auto& [name, layout] : kInCpp) {
+        for (const auto& member : layout.offsets) known[name].insert(member.first);
+    }
+    CHECK(structsOfSlice() == known);
+}
+
+TEST_CASE("shared structs are rows of 16 bytes and what is pushed fits every device") {
+    for (const auto& [name, layout] : kInCpp) {
+        CAPTURE(name);
+        CHECK(layout.size % 16 == 0);
+    }
+    CHECK(sizeof(minirt_frame) <= 128);  // maxPushConstantsSize is at least that
+    CHECK(sizeof(minirt_vec4) == 16);
+    CHECK(sizeof(minirt_uvec4) == 16);
+}

@@ -1,0 +1,23 @@
+// What tests change inside of the runtime to reach states that its API never shows. Defined in ray_query.cpp, the one file that
+// sees the runtime's insides.
+#pragma once
+#include <cstdint>
+
+struct minirt_context;
+
+namespace test {
+
+/// The budget of steps a pixel has in a dispatch: of kernels that are specialised from now on.
+uint32_t stepBudget(const minirt_context* context);
+void setStepBudget(minirt_context* context, uint32_t steps);
+
+/// Specialises kernels from now on as for a GPU: private stacks, scene data in storage buffers, no interleaving. Keeps the budget of steps.
+void specialiseAsGpu(minirt_context* context);
+
+/// As if the driver had reported the loss of the device.
+void loseDevice(minirt_context* context);
+
+/// Breaks a rule of Vulkan, about which the validation layer has to complain.
+void breakValidation(minirt_context* context);
+
+}  // namespace test
