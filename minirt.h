@@ -158,7 +158,7 @@ struct minirt_frame {
     minirt_vec4 forward;   /* unit */
     minirt_vec4 right;     /* scaled to the half width of the image at distance 1 */
     minirt_vec4 up;        /* scaled to its half height */
-    minirt_uvec4 size;     /* x, y: width and height of the whole image; z: waiting segments that the state has room for */
+    minirt_uvec4 size;     /* x, y: width and height of the whole image; z: waiting segments that the state has room for; w: 1 in the last pass */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
     minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
     minirt_uvec4 sampling; /* x: sample index, z: depth limit, w: 1 to go on with saved pixels */
@@ -168,7 +168,7 @@ struct minirt_counters {
     MINIRT_UINT pending;          /* pixels that saved their state in this dispatch */
     MINIRT_UINT nan_pixels;       /* samples that were NaN and count as black */
     MINIRT_UINT segment_overflow; /* rays dropped because the state had no room */
-    MINIRT_UINT volume_overflow;  /* unused */
+    MINIRT_UINT unfinished;       /* pixels that were pending in the last pass they get */
 };
 /* layout-end */
 
@@ -388,7 +388,7 @@ typedef struct minirt_region {
 } minirt_region;
 
 typedef struct minirt_render_desc {
-    uint32_t width, height;       /* 0: the scene's */
+    uint32_t width, height;       /* both 0: the scene's */
     uint32_t samples;             /* a pixel; 0: the scene's */
     uint32_t first_sample;        /* index of the first */
     uint32_t max_depth;           /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
@@ -417,7 +417,8 @@ MINIRT_API void minirt_end(minirt_job* job);
 /* Records one sample (index `sample`) of the job's whole image into the host's command buffer and copies it into `image`
    (VK_FORMAT_R32G32B32A32_SFLOAT, usage TRANSFER_DST, layout TRANSFER_DST_OPTIMAL, at least as large as the job's image).
    `camera` NULL: the job's. Pixels that need more than `passes` (0: 4) budgets of steps stay incomplete and count in traversal_cap.
-   The host submits; the next call on the scene must wait until that has finished. */
+   A later minirt_step starts over with the job's own first sample. The host submits; the next call on the scene must wait until that has
+   finished. */
 MINIRT_API minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage image, const minirt_camera* camera, uint32_t sample,
                                        uint32_t passes);
 
@@ -744,11 +745,15 @@ inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
     for (uint64_t i = 0; i < b.kernel_count; ++i) {
         const minirt_kernel& k = b.kernels[i];
         if (k.spirv_offset > b.spirv_size || k.spirv_size > b.spirv_size - k.spirv_offset || k.spirv_size < 20 || k.spirv_size % 4 || k.spirv_offset % 4 ||
-            k.name[sizeof k.name - 1] != 0 || k.bindings >> MINIRT_BINDING_COUNT)
+            k.name[sizeof k.name - 1] != 0 || k.bindings >> MINIRT_BINDING_COUNT || k.waits > 1)
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu is malformed", i);
         uint32_t magic;
         memcpy(&magic, b.spirv + k.spirv_offset, sizeof magic);
         if (magic != 0x07230203u) return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu is not SPIR-V", i);
+        const bool lacksNormals = (k.bindings >> MINIRT_BINDING_NORMALS & 1u) && !b.normal_count;
+        const bool lacksUvs = (k.bindings >> MINIRT_BINDING_UVS & 1u) && !b.uv_count;
+        if ((lacksNormals || lacksUvs) && (b.normal_count || b.uv_count))
+            return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads corners that are not there", i);
     }
     return MINIRT_OK;
 }
@@ -774,15 +779,15 @@ inline minirt_result validate(const void* data, size_t size, minirt_blob* out, m
 /* >>implementation-vulkan */
 #define MINIRT_INSTANCE_FUNCTIONS(X)                                                                                              \
     X(DestroyInstance) X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceProperties2)                 \
-    X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties) X(GetPhysicalDeviceFormatProperties)           \
+    X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties)           \
     X(CreateDevice) X(GetDeviceProcAddr)
 #define MINIRT_DEVICE_FUNCTIONS(X)                                                                                                \
-    X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit) X(QueueWaitIdle) X(DeviceWaitIdle) X(CreateBuffer) X(DestroyBuffer)         \
-    X(GetBufferMemoryRequirements) X(AllocateMemory) X(FreeMemory) X(BindBufferMemory) X(MapMemory) X(UnmapMemory)                \
+    X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit) X(QueueWaitIdle) X(CreateBuffer) X(DestroyBuffer)         \
+    X(GetBufferMemoryRequirements) X(AllocateMemory) X(FreeMemory) X(BindBufferMemory) X(MapMemory)                \
     X(CreateBufferView) X(DestroyBufferView) X(CreateShaderModule) X(DestroyShaderModule) X(CreateComputePipelines)               \
     X(DestroyPipeline) X(CreatePipelineLayout) X(DestroyPipelineLayout) X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout) \
     X(CreateDescriptorPool) X(DestroyDescriptorPool) X(AllocateDescriptorSets) X(UpdateDescriptorSets) X(CreateCommandPool)       \
-    X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer) X(ResetCommandBuffer)               \
+    X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer)               \
     X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdDispatch) X(CmdPipelineBarrier) X(CmdCopyBuffer)         \
     X(CmdFillBuffer) X(CmdCopyBufferToImage) X(CreateFence) X(DestroyFence) X(WaitForFences) X(ResetFences) X(CreateQueryPool)    \
     X(DestroyQueryPool) X(CmdResetQueryPool) X(CmdWriteTimestamp) X(GetQueryPoolResults)
@@ -875,6 +880,7 @@ struct minirt_job {
     uint32_t dispatchBlocks = 0;  // of the dispatch that is under way
     double dispatchMs = 0;
     bool resume = false;
+    bool recorded = false;  // the film holds one sample that minirt_record made
     uint32_t samplesDone = 0;
     double startMs = 0;
     minirt_stats stats = {};
@@ -1115,7 +1121,7 @@ inline minirt_result pickDevice(minirt_context* c, const char* wanted) {
     if (!count) return fail(c, MINIRT_ERROR_NO_DEVICE, "no Vulkan device found; install a driver (Debian: mesa-vulkan-drivers renders without a GPU)");
     uint32_t chosen = 0;
     if (wanted && *wanted) {
-        chosen = isNumber(wanted) ? static_cast<uint32_t>(strtoul(wanted, nullptr, 10)) : count;
+        chosen = isNumber(wanted) && strlen(wanted) < 9 ? static_cast<uint32_t>(strtoul(wanted, nullptr, 10)) : count;
         for (uint32_t i = count; i-- > 0 && !isNumber(wanted);)
             if (strstr(describe(c, devices[i]).name, wanted)) chosen = i;
         if (chosen >= count) return fail(c, MINIRT_ERROR_NO_DEVICE, "no Vulkan device matches '%s'; list them with: minirtc devices", wanted);
@@ -1133,9 +1139,9 @@ inline void readDeviceProperties(minirt_context* c, uint32_t timestampBits) {
     c->vk.GetPhysicalDeviceProperties2(c->physicalDevice, &properties);
     c->vk.GetPhysicalDeviceMemoryProperties(c->physicalDevice, &c->memoryProperties);
     c->limits = properties.properties.limits;
-    /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel that stays below
-       65535 / subgroup size can never get there. */
-    c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ? 65535u / larger(subgroup.subgroupSize, 1u) - 64u : 1u << 18;
+    /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel whose own
+       passes stay below 65535 / subgroup size can never get there. The margin is for saving and loading a traversal's stack. */
+    c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ? 65535u / larger(subgroup.subgroupSize, 1u) - 256u : 1u << 18;
     c->timestampPeriodNs = timestampBits ? static_cast<double>(c->limits.timestampPeriod) : 0.0;
     c->timestampMask = timestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << timestampBits) - 1;
     c->info = describe(c, c->physicalDevice);
@@ -1186,8 +1192,8 @@ inline minirt_result openContext(minirt_context* c, const minirt_context_desc& d
         if (minirt_result r = loadInstanceFunctions(c)) return r;
         if (minirt_result r = pickDevice(c, desc.device_name)) return r;
     } else {
-        if (!desc.host.instance || !desc.host.physical_device || !desc.host.queue)
-            return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "minirt_host_device: with a device, instance, physical_device and queue are needed too");
+        if (!desc.host.get_instance_proc_addr || !desc.host.instance || !desc.host.physical_device || !desc.host.queue)
+            return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "minirt_host_device: with a device, all other fields are needed too");
         c->instance = desc.host.instance;
         c->physicalDevice = desc.host.physical_device;
         c->device = desc.host.device;
@@ -1200,6 +1206,10 @@ inline minirt_result openContext(minirt_context* c, const minirt_context_desc& d
     if (c->ownsDevice) c->queueFamily = family;
     if (!c->ownsDevice && family != c->queueFamily) timestampBits = 0;
     readDeviceProperties(c, timestampBits);
+    constexpr uint32_t kStorageBuffers = 6;
+    if (c->limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the device offers %sfewer than %lld storage buffers to a kernel", "", kStorageBuffers);
+    if (c->info.api_version < VK_API_VERSION_1_1) return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the device is older than Vulkan 1.1");
     if (c->ownsDevice)
         if (minirt_result r = createDevice(c)) return r;
     if (minirt_result r = loadDeviceFunctions(c)) return r;
@@ -1208,11 +1218,11 @@ inline minirt_result openContext(minirt_context* c, const minirt_context_desc& d
 }
 
 inline void closeContext(minirt_context* c) {
-    if (c->device && c->vk.DestroyFence) {
+    if (c->device) {
         if (c->fence) c->vk.DestroyFence(c->device, c->fence, nullptr);
         if (c->queries) c->vk.DestroyQueryPool(c->device, c->queries, nullptr);
         if (c->commandPool) c->vk.DestroyCommandPool(c->device, c->commandPool, nullptr);
-        if (c->ownsDevice) c->vk.DestroyDevice(c->device, nullptr);
+        if (c->ownsDevice && c->vk.DestroyDevice) c->vk.DestroyDevice(c->device, nullptr);
     }
     if (c->ownsDevice && c->instance) {
         if (c->messenger) c->vk.DestroyDebugUtilsMessenger(c->instance, c->messenger, nullptr);
@@ -1248,8 +1258,7 @@ inline void destroyBuffer(minirt_context* c, Buffer& buffer) {
     buffer = Buffer();
 }
 
-inline minirt_result createBuffer(minirt_context* c, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement, Buffer& buffer) {
-    destroyBuffer(c, buffer);
+inline minirt_result makeBuffer(minirt_context* c, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement, Buffer& buffer) {
     VkBufferCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = size;
@@ -1270,6 +1279,14 @@ inline minirt_result createBuffer(minirt_context* c, VkDeviceSize size, VkBuffer
     const VkMemoryPropertyFlags flags = c->memoryProperties.memoryTypes[type].propertyFlags;
     const bool map = (flags & mappable) == mappable && (placement != Placement::device || (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT));
     return map ? check(c, c->vk.MapMemory(c->device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory") : MINIRT_OK;
+}
+
+/* Replaces `buffer`; on failure it is empty. */
+inline minirt_result createBuffer(minirt_context* c, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement, Buffer& buffer) {
+    destroyBuffer(c, buffer);
+    const minirt_result r = makeBuffer(c, size, usage, placement, buffer);
+    if (r) destroyBuffer(c, buffer);
+    return r;
 }
 
 inline minirt_result beginCommands(minirt_context* c) {
@@ -1334,9 +1351,7 @@ inline uint32_t bufferOf(uint32_t binding) {
     return binding == MINIRT_BINDING_PRIMITIVE_STORAGE ? MINIRT_BINDING_PRIMITIVES : binding;
 }
 
-/* One part of the blob as a buffer of the given binding; an absent part gets none. */
-inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, Buffer& staging) {
-    if (!data || !size) return MINIRT_OK;
+inline minirt_result fillBuffer(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, Buffer& staging) {
     minirt_context* c = s->context;
     Buffer& buffer = s->buffers[binding];
     const VkFormat format = viewFormat(binding);
@@ -1358,6 +1373,14 @@ inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* d
     view.format = format;
     view.range = VK_WHOLE_SIZE;
     return check(c, c->vk.CreateBufferView(c->device, &view, nullptr, &buffer.view), "vkCreateBufferView");
+}
+
+/* One part of the blob as a buffer of the given binding; an absent part gets none, nor does one that fails. */
+inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* data, VkDeviceSize size, Buffer& staging) {
+    if (!data || !size) return MINIRT_OK;
+    const minirt_result r = fillBuffer(s, binding, data, size, staging);
+    if (r) destroyBuffer(s->context, s->buffers[binding]);
+    return r;
 }
 
 inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
@@ -1704,6 +1727,28 @@ inline minirt_result warmUp(minirt_job* job) {
 
 inline minirt_counters* hostCounters(const minirt_scene* s) { return static_cast<minirt_counters*>(s->buffers[MINIRT_BINDING_COUNTERS].mapped); }
 
+/* Moves what the kernels counted into the job's statistics; gives the number of pending pixels. */
+inline uint32_t takeCounters(minirt_job* job) {
+    minirt_counters* counters = hostCounters(job->scene);
+    const uint32_t pending = counters->pending;
+    job->stats.nan_pixels += counters->nan_pixels;
+    job->stats.segment_overflow += counters->segment_overflow;
+    job->stats.traversal_cap += counters->unfinished;
+    memset(counters, 0, sizeof *counters);
+    return pending;
+}
+
+/* Empties film and counters. */
+inline minirt_result clearJob(minirt_job* job) {
+    minirt_context* c = job->scene->context;
+    if (minirt_result r = beginCommands(c)) return r;
+    recordClear(job, c->commands);
+    if (minirt_result r = submitAndWait(c)) return r;
+    memset(hostCounters(job->scene), 0, sizeof(minirt_counters));
+    job->recorded = false;
+    return MINIRT_OK;
+}
+
 inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     minirt_scene* s = job->scene;
     minirt_context* c = s->context;
@@ -1719,10 +1764,8 @@ inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     if (!aimCamera(s->desc, job->camera, job->frame))
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "the camera's position, target, up or vfov do not make a view");
     writeDescriptors(s);
-    if (minirt_result r = beginCommands(c)) return r;
-    recordClear(job, c->commands);
-    if (minirt_result r = submitAndWait(c)) return r;
-    memset(hostCounters(s), 0, sizeof(minirt_counters));
+    s->blocksPerMs /= 8;  // this job's pixels may cost more than the last one's did
+    if (minirt_result r = clearJob(job)) return r;
     return warmUp(job);
 }
 
@@ -1744,7 +1787,8 @@ inline void learnSpeed(minirt_job* job) {
 }
 
 inline minirt_result step(minirt_job* job) {
-    minirt_scene* s = job->scene;
+    if (job->recorded)
+        if (minirt_result r = clearJob(job)) return r;
     if (!job->resume) {
         job->dispatchBlocks = blocksToDispatch(job);
         job->dispatchMs = 0;
@@ -1754,15 +1798,11 @@ inline minirt_result step(minirt_job* job) {
     job->frame.sampling.w = job->resume ? 1 : 0;
     double ms = 0;
     if (minirt_result r = dispatch(job, job->dispatchBlocks, &ms)) return r;
-    minirt_counters* counters = hostCounters(s);
     job->stats.dispatches++;
     job->stats.resumed_dispatches += job->resume ? 1 : 0;
     job->stats.gpu_ms += ms;
-    job->stats.nan_pixels += counters->nan_pixels;
-    job->stats.segment_overflow += counters->segment_overflow;
     job->dispatchMs += ms;
-    job->resume = counters->pending > 0;
-    memset(counters, 0, sizeof *counters);
+    job->resume = takeCounters(job) > 0;
     if (job->resume) return MINIRT_OK;
     learnSpeed(job);
     job->nextBlock += job->dispatchBlocks;
@@ -2114,15 +2154,15 @@ minirt_result minirt_get_stats(minirt_job* job, minirt_stats* stats) {
     if (job->scene->context->lost) return MINIRT_ERROR_DEVICE_LOST;
     const void* data;
     if (minirt_result r = readBuffer(job->scene, MINIRT_BINDING_RAY_COUNTS, job->scene->countsReadBack, &data)) return r;
+    takeCounters(job);
     *stats = job->stats;
     stats->width = job->desc.width;
     stats->height = job->desc.height;
-    stats->samples = job->samplesDone;
+    stats->samples = job->recorded ? 1 : job->samplesDone;
     stats->pipeline_ms = job->scene->pipelineMs;
     stats->load_ms = job->scene->loadMs;
     stats->upload_ms = job->scene->uploadMs;
-    stats->primary_rays = uint64_t(job->desc.region.width) * job->desc.region.height * job->samplesDone;
-    stats->traversal_cap += hostCounters(job->scene)->pending;
+    stats->primary_rays = uint64_t(job->desc.region.width) * job->desc.region.height * stats->samples;
     sumRays(job, static_cast<const uint32_t*>(data), stats);
     return MINIRT_OK;
 }
@@ -2163,13 +2203,13 @@ minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage i
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "the camera's position, target, up or vfov do not make a view");
     }
     job->frame.sampling.x = sample;
+    passes = passes ? passes : 4;
     recordClear(job, commands);
     for (uint32_t first = 0; first < job->blockCount; first += job->stateBlocks) {
         job->frame.blocks.x = first;
-        for (uint32_t pass = 0; pass <= (passes ? passes : 4); ++pass) {
-            c->vk.CmdFillBuffer(commands, job->scene->buffers[MINIRT_BINDING_COUNTERS].buffer, 0, sizeof(uint32_t), 0);
-            memoryBarrier(c, commands);
+        for (uint32_t pass = 0; pass < passes; ++pass) {
             job->frame.sampling.w = pass ? 1 : 0;
+            job->frame.size.w = pass + 1 == passes ? 1 : 0;
             recordDispatch(job, commands, smaller(job->stateBlocks, job->blockCount - first));
         }
     }
@@ -2178,6 +2218,10 @@ minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage i
     copy.imageExtent = {job->desc.width, job->desc.height, 1};
     c->vk.CmdCopyBufferToImage(commands, job->scene->buffers[MINIRT_BINDING_FILM].buffer, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
     job->frame = before;
+    job->nextBlock = 0;
+    job->resume = false;
+    job->samplesDone = 0;
+    job->recorded = true;
     return MINIRT_OK;
 }
 

@@ -57,7 +57,7 @@ const std::map<std::string, Layout> kInCpp = {
     {"minirt_counters",
      {sizeof(minirt_counters),
       {AT(minirt_counters, pending), AT(minirt_counters, nan_pixels), AT(minirt_counters, segment_overflow),
-       AT(minirt_counters, volume_overflow)}}},
+       AT(minirt_counters, unfinished)}}},
 };
 
 /// The structs of the slice by their text, with their members.

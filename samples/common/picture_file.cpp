@@ -107,6 +107,8 @@ std::vector<uint8_t> encodeExr(const Picture& picture, std::string& problem) {
     return bytes;
 }
 
+}  // namespace
+
 std::string writeWhole(const std::string& path, const std::vector<uint8_t>& bytes) {
     std::string temporary = path + ".XXXXXX";
     const int descriptor = mkstemp(temporary.data());
@@ -122,8 +124,6 @@ std::string writeWhole(const std::string& path, const std::vector<uint8_t>& byte
     std::filesystem::remove(temporary, error);
     return path + ": cannot be written: " + reason;
 }
-
-}  // namespace
 
 uint8_t srgbByte(float linear) {
     const float x = linear > 0 ? std::min(linear, 1.0f) : 0.0f;

@@ -27,5 +27,8 @@ uint8_t srgbByte(float linear);
 /// Writes width * height * 3 bytes, top row first, as they are. Returns "" or what went wrong.
 std::string writePng(const std::string& path, uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb);
 
+/// Writes the file whole or not at all. Returns "" or what went wrong.
+std::string writeWhole(const std::string& path, const std::vector<uint8_t>& bytes);
+
 /// Returns "" where a file could be written now, or why not: to be asked before hours of rendering.
 std::string whyNotWritable(const std::string& path);

@@ -31,9 +31,9 @@ bool splitsByFresnel(minirt_material material) {
 Scatter scatter(minirt_material material, vec3 d, vec3 ng, vec3 n, bool entering) {
     Scatter result = Scatter(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 #ifdef EFFECT_REFRACTION
-    float ior = material.specular.w;
-    Interface boundary = meetInterface(d, n, entering ? ior : 1.0 / ior);
     bool transmits = maxComponent(material.transmit.rgb) > 0.0;
+    float ior = material.specular.w;
+    Interface boundary = meetInterface(d, n, entering || !transmits ? ior : 1.0 / ior);  // what is opaque mirrors alike from both sides
     if (splitsByFresnel(material)) {
         result.reflectWeight = material.reflect.rgb * fresnelShare(material, boundary);
         result.refractWeight = material.transmit.rgb * (1.0 - fresnelShare(material, boundary));

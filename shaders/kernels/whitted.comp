@@ -117,10 +117,12 @@ Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Surface surface,
     bool refracts = deeper && carriesOn(refractThroughput);
     Segment reflected = Segment(offsetRayOrigin(surface.p, surface.pError, ng, ng), branches.reflected, reflectThroughput, from.depth + 1u);
     Segment refracted = Segment(offsetRayOrigin(surface.p, surface.pError, ng, -ng), branches.refracted, refractThroughput, from.depth + 1u);
-    if (reflects && refracts) {
+    bool room = walk.waiting < frame.size.z;
+    if (reflects && refracts && room) {
         uint word = waitingWord(walk.waiting++);
         putSegment(slot, word, reflected);
     }
+    if (reflects && refracts && !room) atomicAdd(counters.segment_overflow, 1u);
     if (refracts) return traceSegment(walk, refracted);
     if (reflects) return traceSegment(walk, reflected);
     walk.phase = PHASE_DONE;
@@ -148,7 +150,7 @@ void main() {
     while (walk.phase != PHASE_DONE) {
         traverse(ray, steps, STEP_BUDGET);
         if (!isDone(ray) || steps >= STEP_BUDGET) break;
-        steps++;
+        steps += 2u;  // this pass, and the last one of the search for lights
         bool arrived = walk.phase == PHASE_CLOSEST;
         if (arrived) {
             walk.hitSlot = ray.slot;
@@ -179,4 +181,5 @@ void main() {
     addToFilm(task.filmIndex, finished ? walk.radiance : vec3(0.0), finished, rays);
     saveWalk(task.slot, walk, ray);
     if (!finished) atomicAdd(counters.pending, 1u);
+    if (!finished && frame.size.w != 0u) atomicAdd(counters.unfinished, 1u);
 }

@@ -41,13 +41,16 @@ uint popNode(inout int level) {
     return level >= 0 ? stackRead(max(level, 0)) : NODE_NONE;
 }
 
-/// Visits nodes until the ray is done or `steps` reaches `budget`. Counts a step for every pass of every loop.
+/// Visits nodes until the ray is done or `steps` reaches `budget`. Counts a step for every pass of every loop, the last one that only
+/// finds the condition false included: some drivers do.
 void traverse(inout Traversal ray, inout uint steps, uint budget) {
     SlabRay slabs = slabRay(ray.origin, ray.direction, scene.gridOrigin.xyz, scene.gridScale.xyz, scene.gridPlanes.xyz);
     Shear shear = shearOf(ray.direction);
     uint node = ray.node;
     int level = ray.level;
+    steps++;
     while (node != NODE_NONE && steps < budget) {
+        steps += 3u;  // this pass, and the last ones of the two loops inside
         while ((node & MINIRT_LEAF) == 0u && steps < budget) {
             steps++;
             ChildBoxes boxes = fetchNode(node);
