@@ -3,8 +3,8 @@
 #include <glslang/Public/ShaderLang.h>
 
 #include <map>
-#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "kernel.hpp"
@@ -62,15 +62,18 @@ const std::map<std::string, Layout> kInCpp = {
 
 /// The structs of the slice by their text, with their members.
 std::map<std::string, std::set<std::string>> structsOfSlice() {
-    const std::string slice = std::regex_replace(shaderLibrary().at("layout"), std::regex(R"(/\*[^]*?\*/)"), "");
     std::map<std::string, std::set<std::string>> structs;
-    const std::regex structPattern(R"(struct (\w+) \{([^}]*)\})");
-    const std::regex memberPattern(R"(\w+ (\w+);)");
-    for (std::sregex_iterator s(slice.begin(), slice.end(), structPattern); s != std::sregex_iterator(); ++s) {
-        const std::string body = (*s)[2];
-        for (std::sregex_iterator m(body.begin(), body.end(), memberPattern); m != std::sregex_iterator(); ++m) {
-            structs[(*s)[1]].insert((*m)[1]);
-        }
+    std::istringstream lines(shaderLibrary().at("layout"));
+    std::string current;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string first;
+        std::string second;
+        words >> first >> second;
+        if (first == "struct") current = second;
+        if (first == "};") current.clear();
+        const size_t semicolon = second.find(';');
+        if (!current.empty() && semicolon != std::string::npos) structs[current].insert(second.substr(0, semicolon));
     }
     return structs;
 }
