@@ -150,7 +150,6 @@ void main() {
     while (walk.phase != PHASE_DONE) {
         traverse(ray, steps, STEP_BUDGET);
         if (!isDone(ray) || steps >= STEP_BUDGET) break;
-        steps += 2u;  // this pass, and the last one of the search for lights
         bool arrived = walk.phase == PHASE_CLOSEST;
         if (arrived) {
             walk.hitSlot = ray.slot;
@@ -176,6 +175,7 @@ void main() {
             ray = nextSegment(task.slot, walk, hit, surface, material, ng, n);
             rays.y += walk.phase == PHASE_CLOSEST ? 1u : 0u;
         }
+        steps += 2u;  // this pass, and the last one of the search for lights
     }
     bool finished = walk.phase == PHASE_DONE;
     addToFilm(task.filmIndex, finished ? walk.radiance : vec3(0.0), finished, rays);

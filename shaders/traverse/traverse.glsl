@@ -48,9 +48,7 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
     Shear shear = shearOf(ray.direction);
     uint node = ray.node;
     int level = ray.level;
-    steps++;
     while (node != NODE_NONE && steps < budget) {
-        steps += 3u;  // this pass, and the last ones of the two loops inside
         while ((node & MINIRT_LEAF) == 0u && steps < budget) {
             steps++;
             ChildBoxes boxes = fetchNode(node);
@@ -74,7 +72,9 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
             node = popNode(level);
             if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
         }
+        steps += 3u;  // this pass, and the last ones of the two loops inside; at the end, so that any budget makes progress
     }
+    steps++;
     ray.node = node;
     ray.level = level;
 }
