@@ -68,7 +68,7 @@ TEST_CASE("Fresnel at normal incidence") {
     }
 }
 
-TEST_CASE("Fresnel at Brewster's angle reflects one polarisation only") {
+TEST_CASE("Fresnel at the Brewster angle reflects one polarisation only") {
     for (const double eta : kEtas) {
         const double perpendicular = (1 - eta * eta) / (1 + eta * eta);
         const f64::Interface boundary = f64::meetInterface(arriving(std::atan(eta)), dvec3(0, 1, 0), eta);
@@ -139,7 +139,7 @@ TEST_CASE("reflectance is the same from both sides and float agrees with double"
     CHECK(worst < 5e-5);
 }
 
-TEST_CASE("refracted rays obey Snell and stay in the plane of incidence, mirror rays keep the angle") {
+TEST_CASE("refracted rays obey Snell and stay in the plane of incidence and mirror rays keep the angle") {
     Random random(2);
     double worstSnell = 0;
     double worstMirror = 0;
@@ -192,7 +192,7 @@ TEST_CASE("total reflection is decided wrongly only next to the critical angle")
     }
 }
 
-TEST_CASE("an eta of 1 changes nothing, bit for bit") {
+TEST_CASE("an eta of 1 changes no bit of the direction") {
     Random random(4);
     int changed = 0;
     for (int i = 0; i < 100000; ++i) {

@@ -159,9 +159,12 @@ void loseDevice(minirt_context* context) {
 }
 
 void breakValidation(minirt_context* context) {
-    detail::Buffer buffer;
-    detail::createBuffer(context, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, detail::Placement::device, buffer);
-    detail::destroyBuffer(context, buffer);
+    VkFenceCreateInfo info = {};
+    info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    info.flags = 1u << 20;  // no such flag
+    VkFence fence = VK_NULL_HANDLE;
+    if (context->vk.CreateFence(context->device, &info, nullptr, &fence) == VK_SUCCESS)
+        context->vk.DestroyFence(context->device, fence, nullptr);
 }
 
 }  // namespace test

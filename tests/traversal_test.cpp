@@ -7,6 +7,7 @@
 
 #include "gpu_context.hpp"
 #include "ray_query.hpp"
+#include "runtime_hooks.hpp"
 #include "support.hpp"
 
 using minirtc::LayoutChoice;
@@ -484,4 +485,21 @@ TEST_CASE("more rays than a dispatch takes and numbers that fill no group") {
         }
     }
     CHECK(query.stats().dispatches > 1);
+}
+
+TEST_CASE("rays that are suspended find the same hits") {
+    const Model model = modelOf(join(oracle::icosphere({0, 0, 0}, 1, 4), oracle::icosphere({1.5f, 0.2f, 0}, 0.7f, 4)));
+    const std::vector<Ray> rays = oracle::randomRays(model.mesh, 5000, 6);
+    std::vector<QueryHit> whole;
+    for (const uint32_t steps : {0u, 1u, 5u, 17u}) {
+        CAPTURE(steps);
+        GpuContext gpu;
+        if (!gpu) return;
+        if (steps) test::setStepBudget(gpu.get(), steps);
+        RayQuery query(gpu.get(), model.scene, model.geometry, LayoutChoice::automatic);
+        const std::vector<QueryHit> hits = query.trace(rays, QueryMode::closest);
+        CHECK((query.stats().resumed > 0) == (steps > 0));
+        if (steps == 0) whole = hits;
+        for (size_t i = 0; i < rays.size(); ++i) REQUIRE((hits[i].t == whole[i].t && hits[i].primitive == whole[i].primitive));
+    }
 }

@@ -170,7 +170,7 @@ TEST_CASE("no accepted hit lies behind the origin") {
     CHECK(worst <= 1e-5);
 }
 
-TEST_CASE("hits are kept down to 1e-5 of the triangle's size") {
+TEST_CASE("hits are kept down to 1e-5 of the size of the triangle") {
     Random random(8);
     int candidates = 0;
     double farthestLost = 0;
@@ -220,7 +220,7 @@ TEST_CASE("float agrees with double in t and barycentrics") {
     CHECK(worstB <= 2e-5);
 }
 
-TEST_CASE("a ray in the plane misses, its neighbours still hit") {
+TEST_CASE("a ray in the plane misses and its neighbours still hit") {
     const Triangle floor = {vec3(-1, 0, -1), vec3(1, 0, -1), vec3(0, 0, 1)};
     const Triangle wall = {vec3(-1, -1, 1), vec3(1, -1, 1), vec3(0, 1, 1)};
     const f32::TriangleHit inPlane = intersect({0, 0, -3}, {0, 0, 1}, floor);

@@ -84,6 +84,12 @@ std::string glass(double ior) {
     return R"({"model":"pbr","roughness":0,"transmission":1,"ior":)" + json(ior) + "}";
 }
 
+minirt_render_desc depthLimit(uint32_t maxDepth) {
+    minirt_render_desc desc = {};
+    desc.max_depth = maxDepth + 1;  // 0 means the scene's
+    return desc;
+}
+
 /// Compares every pixel for which `expected` has a value; the error is relative to it, or to `least` where it is smaller.
 void checkPixels(const Picture& picture, double tolerance,
                  const std::function<std::optional<dvec3>(uint32_t, uint32_t)>& expected, double least = 1e-3) {
@@ -267,20 +273,22 @@ std::string slab() {
 TEST_CASE("a slab of glass transmits the series of its Fresnel products") {
     GpuContext gpu;
     if (!gpu) return;
-    for (const double ior : {1.5, 2.42, 0.8})
+    const View view{{0, 0, 2}, {0, 0, 0}, 60, 33};
+    for (const double ior : {1.5, 2.42, 0.8}) {
+        CAPTURE(ior);
+        TemporaryDir dir;
+        const LoadedScene scene(
+            gpu, test::bakeScene(dir, "{" + view.text() + R"(,"materials":{"glass":)" + glass(ior) + R"(,"wall":)" + glow(2) +
+                                          R"(},"objects":[)" + slab() + "," +
+                                          rectangle({-400, -400, -5}, {800, 0, 0}, {0, 800, 0}, "wall") + "]}"));
         for (const uint32_t maxDepth : {0u, 1u, 2u, 3u, 4u, 20u}) {
-            CAPTURE(ior);
             CAPTURE(maxDepth);
-            View view{{0, 0, 2}, {0, 0, 0}, 60, 33};
-            view.maxDepth = maxDepth;
-            const Picture picture = renderScene(gpu, "{" + view.text() + R"(,"materials":{"glass":)" + glass(ior) +
-                                                         R"(,"wall":)" + glow(2) + R"(},"objects":[)" + slab() + "," +
-                                                         rectangle({-400, -400, -5}, {800, 0, 0}, {0, 800, 0}, "wall") + "]}");
-            checkPixels(picture, 1e-5, [&](uint32_t x, uint32_t y) {
+            checkPixels(scene.render(depthLimit(maxDepth)), 1e-5, [&](uint32_t x, uint32_t y) {
                 const double cosI = -view.direction(x, y).z;
                 return dvec3(slabRadiance(ior, cosI, 2, maxDepth, [](double) { return 2.0; }));
             });
         }
+    }
 }
 
 TEST_CASE("a slab of glass shifts what is behind it") {
@@ -298,6 +306,39 @@ TEST_CASE("a slab of glass shifts what is behind it") {
     };
     checkPixels(picture, 2e-5,
                 [&](uint32_t x, uint32_t y) { return dvec3(slabRadiance(ior, -view.direction(x, y).z, 2, 20, wall)); });
+}
+
+namespace {
+
+/// What comes back from `planes` half mirrors in a row to a ray in the gap before plane `next`, going deeper or back out, when
+/// every way out shines with 1.
+double halfMirrorRadiance(int planes, int next, bool deeper, double throughput, uint32_t depth, uint32_t maxDepth) {
+    if (next < 0 || next >= planes) return throughput;
+    if (depth == maxDepth || throughput / 2 <= kCutoff) return 0;
+    const int beyond = deeper ? next + 1 : next - 1, back = deeper ? next - 1 : next + 1;
+    return halfMirrorRadiance(planes, beyond, deeper, throughput / 2, depth + 1, maxDepth) +
+           halfMirrorRadiance(planes, back, !deeper, throughput / 2, depth + 1, maxDepth);
+}
+
+}  // namespace
+
+TEST_CASE("a row of half mirrors sends back the exact sum over its tree of rays") {
+    GpuContext gpu;
+    if (!gpu) return;
+    std::string planes;
+    for (int i = 0; i < 5; ++i) planes += (i ? "," : "") + rectangle({-8, -8, -0.5 * i}, {16, 0, 0}, {0, 16, 0}, "half");
+    const View view{{0, 0, 3}, {0, 0, 0}, 30, 16};
+    TemporaryDir dir;
+    const LoadedScene scene(
+        gpu, test::bakeScene(dir, "{" + view.text() + R"(,"background":{"color":[1,1,1]},"materials":{"half":{"model":"phong",)" +
+                                      R"("diffuse":0,"reflect":0.5,"refract":0.5,"ior":1}},"objects":[)" + planes + "]}"));
+    for (const uint32_t maxDepth : {0u, 1u, 2u, 5u, 8u, 20u}) {
+        CAPTURE(maxDepth);
+        const Picture picture = scene.render(depthLimit(maxDepth));
+        const auto expected = static_cast<float>(halfMirrorRadiance(5, 0, true, 1, 0, maxDepth));
+        for (uint32_t i = 0; i < 256; ++i) REQUIRE(picture.at(i % 16, i / 16) == glm::vec3(expected));
+        CHECK((expected > 0.5f) == (maxDepth > 3));
+    }
 }
 
 namespace {

@@ -1,0 +1,348 @@
+// What the validator lets through is safe to render; everything else is refused by name. Needs no device.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+
+#include "commands.hpp"
+#include "support.hpp"
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A blob in memory aligned as a mapped file is.
+class Blob {
+public:
+    explicit Blob(const std::vector<char>& bytes) : size_(bytes.size()), rows_((bytes.size() + 15) / 16) {
+        std::memcpy(data(), bytes.data(), size_);
+    }
+
+    uint8_t* data() { return reinterpret_cast<uint8_t*>(rows_.data()); }
+    size_t size() const { return size_; }
+    minirt_blob_header& header() { return *reinterpret_cast<minirt_blob_header*>(data()); }
+    minirt_blob_section* table() { return reinterpret_cast<minirt_blob_section*>(data() + sizeof(minirt_blob_header)); }
+
+    minirt_blob_section& section(const char* tag) {
+        for (uint32_t i = 0; i < header().section_count; ++i)
+            if (std::string(table()[i].tag, 8).compare(0, std::strlen(tag), tag) == 0) return table()[i];
+        throw std::runtime_error("no section " + std::string(tag));
+    }
+    template <typename T>
+    T* contents(const char* tag) {
+        return reinterpret_cast<T*>(data() + section(tag).offset);
+    }
+
+    minirt_result validate(std::string* message = nullptr) { return validate(size_, message); }
+    minirt_result validate(size_t size, std::string* message = nullptr) {
+        minirt_blob blob;
+        minirt_validation validation;
+        const minirt_result result = minirt_validate(data(), size, &blob, &validation);
+        if (message) *message = validation.message;
+        CHECK((result == MINIRT_OK) == (blob.nodes != nullptr));
+        return result;
+    }
+
+    /// Makes all checksums right again.
+    void seal() {
+        const auto align = [](uint64_t size) {
+            return (size + MINIRT_SECTION_ALIGNMENT - 1) / MINIRT_SECTION_ALIGNMENT * MINIRT_SECTION_ALIGNMENT;
+        };
+        const uint64_t headerSize = align(sizeof(minirt_blob_header) + header().section_count * sizeof(minirt_blob_section));
+        if (headerSize > size_) return;
+        for (uint32_t i = 0; i < header().section_count; ++i) {
+            minirt_blob_section& s = table()[i];
+            if (s.offset <= size_ && s.size <= size_ && align(s.size) <= size_ - s.offset)
+                s.checksum = minirt_checksum(data() + s.offset, align(s.size));
+        }
+        header().checksum = minirt_header_checksum(data(), headerSize);
+    }
+
+private:
+    struct alignas(16) Row {
+        uint8_t bytes[16];
+    };
+    size_t size_;
+    std::vector<Row> rows_;
+};
+
+std::vector<char> bake(const test::TemporaryDir& dir, const std::string& json,
+                       minirtc::LayoutChoice layout = minirtc::LayoutChoice::quantised) {
+    minirtc::BakeOptions options;
+    options.scene = dir.write("scene.json", json).string();
+    options.output = (dir.path() / "scene.mrt").string();
+    options.layout = layout;
+    options.quiet = true;
+    minirtc::bake(options);
+    std::ifstream file(options.output, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const char* kMinimal = R"({"background":{"color":[1,1,1]},"materials":{"m":{"model":"phong"}},
+    "objects":[{"rectangle":{"origin":[0,0,-3],"u":[1,0,0],"v":[0,1,0]},"material":"m"}]})";
+
+/// Something in every section.
+std::vector<char> richBlob(minirtc::LayoutChoice layout = minirtc::LayoutChoice::quantised) {
+    const test::TemporaryDir dir;
+    std::string tga(18, '\0');
+    tga[2] = 2, tga[12] = 2, tga[14] = 2, tga[16] = 24, tga[17] = 0x20;
+    dir.write("image.tga", tga + std::string(12, '\x7f'));
+    dir.write("fan.obj",
+              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nv -1 0.5 0\nv -1 -1 0.2\nv 0 -1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+              "f 1/1 2/2 3/3\nf 1/1 3/2 4/3\nf 1/1 4/2 5/3\nf 1/1 5/2 6/3\nf 1/1 6/2 7/3\n");
+    return bake(dir, R"({"background":{"image":"image.tga"},"lights":[{"type":"point","position":[0,3,0]}],
+        "materials":{"painted":{"model":"pbr","baseColor":"image.tga"},"a":{"model":"phong"},"b":{"model":"phong","diffuse":0.5},
+                     "tiles":{"model":"checker","a":"a","b":"b"}},
+        "objects":[{"mesh":"fan.obj","material":"painted","smooth":true,"instances":[{},{"translate":[3,0,0]},{"translate":[0,3,0]}]},
+                   {"rectangle":{"origin":[0,0,-3],"u":[1,0,0],"v":[0,1,0]},"material":"tiles"},
+                   {"sphere":{"center":[0,0,-8]},"material":"a"}]})",
+                layout);
+}
+
+struct Forgery {
+    const char* what;
+    minirt_result result;
+    const char* message;  // a part of it
+    std::function<void(Blob&)> forge;
+};
+
+void checkForgeries(const std::vector<char>& bytes, const std::vector<Forgery>& forgeries) {
+    for (const Forgery& forgery : forgeries) {
+        INFO(forgery.what);
+        Blob blob(bytes);
+        forgery.forge(blob);
+        blob.seal();
+        std::string message;
+        CHECK(blob.validate(&message) == forgery.result);
+        INFO(message);
+        CHECK(message.find(forgery.message) != std::string::npos);
+    }
+}
+
+minirt_scene_desc& sceneOf(Blob& blob) {
+    return *blob.contents<minirt_scene_desc>("SCENE");
+}
+minirt_scene_rows& rowsOf(Blob& blob) {
+    return *blob.contents<minirt_scene_rows>("ROWS");
+}
+minirt_kernel& kernelOf(Blob& blob) {
+    return *blob.contents<minirt_kernel>("KERNELS");
+}
+
+/// Word of the reference of a child in quantised nodes.
+uint32_t& childOf(Blob& blob, uint32_t node, int child) {
+    return blob.contents<uint32_t>("NODES")[node * 8 + 3 + 4 * child];
+}
+
+float asFloat(uint32_t bits) {
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/// The first inner node below the root, and which child of the root it is.
+uint32_t innerChild(Blob& blob, int* which) {
+    for (*which = 0; *which < 2; ++*which)
+        if (!(childOf(blob, 0, *which) & MINIRT_LEAF)) return childOf(blob, 0, *which);
+    throw std::runtime_error("the tree is too small");
+}
+
+uint32_t materialCount(Blob& blob) {
+    return static_cast<uint32_t>(blob.section("MATERIAL").size / sizeof(minirt_material));
+}
+
+minirt_material& checkerOf(Blob& blob) {
+    minirt_material* materials = blob.contents<minirt_material>("MATERIAL");
+    while (!(materials->options.x & MINIRT_MATERIAL_CHECKER)) ++materials;
+    return *materials;
+}
+
+uint64_t countOf(Blob& blob, const char* tag, size_t stride) {
+    return blob.section(tag).size / stride;
+}
+
+}  // namespace
+
+TEST_CASE("baked blobs are valid in both node layouts") {
+    for (const auto layout : {minirtc::LayoutChoice::quantised, minirtc::LayoutChoice::floating}) {
+        Blob blob(richBlob(layout));
+        std::string message;
+        CHECK(blob.validate(&message) == MINIRT_OK);
+        CHECK(message.empty());
+        for (const char* tag : {"SCENE", "ROWS", "NODES", "PRIMS", "NORMALS", "UVS", "MATERIAL", "LIGHTS", "IMAGES", "TEXELS",
+                                "KERNELS", "SPIRV", "EXPLAIN"})
+            CHECK(blob.section(tag).size > 0);
+        blob.seal();
+        CHECK(blob.validate() == MINIRT_OK);
+    }
+}
+
+TEST_CASE("every strict prefix of a blob is refused") {
+    const test::TemporaryDir dir;
+    Blob blob(bake(dir, kMinimal));
+    REQUIRE(blob.validate() == MINIRT_OK);
+    for (size_t size = 0; size < blob.size(); ++size) {
+        const minirt_result expected = size < MINIRT_SIGNATURE_SIZE ? MINIRT_ERROR_NOT_A_BLOB : MINIRT_ERROR_TRUNCATED;
+        if (blob.validate(size) != expected) {
+            INFO(size);
+            REQUIRE(blob.validate(size) == expected);
+        }
+    }
+}
+
+TEST_CASE("every change of one byte is refused") {
+    const test::TemporaryDir dir;
+    Blob blob(bake(dir, kMinimal));
+    for (size_t i = 0; i < blob.size(); ++i)
+        for (const uint8_t change : {0x01, 0x80, 0xff}) {
+            blob.data()[i] ^= change;
+            if (blob.validate() == MINIRT_OK) {
+                INFO(i);
+                REQUIRE(blob.validate() != MINIRT_OK);
+            }
+            blob.data()[i] ^= change;
+        }
+    CHECK(blob.validate() == MINIRT_OK);
+}
+
+TEST_CASE("headers and tables that lie are refused by name") {
+    const test::TemporaryDir dir;
+    checkForgeries(
+        bake(dir, kMinimal),
+        {
+            {"signature", MINIRT_ERROR_NOT_A_BLOB, "signature", [](Blob& b) { b.header().signature[0] = 'x'; }},
+            {"version", MINIRT_ERROR_VERSION, "bake the scene again", [](Blob& b) { b.header().version++; }},
+            {"byte order", MINIRT_ERROR_VERSION, "byte order", [](Blob& b) { b.header().endian = 0x04030201u; }},
+            {"too long", MINIRT_ERROR_TRUNCATED, "header says", [](Blob& b) { b.header().total_size += 256; }},
+            {"too short", MINIRT_ERROR_TRUNCATED, "header says", [](Blob& b) { b.header().total_size -= 256; }},
+            {"no sections", MINIRT_ERROR_CORRUPT, "sections", [](Blob& b) { b.header().section_count = 0; }},
+            {"many sections", MINIRT_ERROR_CORRUPT, "sections",
+             [](Blob& b) { b.header().section_count = MINIRT_MAX_SECTIONS + 1; }},
+            {"a section fewer", MINIRT_ERROR_TRUNCATED, "bytes of sections", [](Blob& b) { b.header().section_count--; }},
+            {"offset outside", MINIRT_ERROR_SECTION_OUT_OF_BOUNDS, "section 2",
+             [](Blob& b) { b.table()[2].offset = b.size() + 256; }},
+            {"offset that wraps", MINIRT_ERROR_SECTION_OUT_OF_BOUNDS, "section 1",
+             [](Blob& b) { b.table()[1].offset = ~uint64_t{0} - 255; }},
+            {"overlap", MINIRT_ERROR_SECTION_OUT_OF_BOUNDS, "section 1",
+             [](Blob& b) { b.table()[1].offset = b.table()[0].offset; }},
+            {"size outside", MINIRT_ERROR_SECTION_OUT_OF_BOUNDS, "section 0", [](Blob& b) { b.table()[0].size = b.size(); }},
+            {"size that wraps", MINIRT_ERROR_SECTION_OUT_OF_BOUNDS, "section 0",
+             [](Blob& b) { b.table()[0].size = ~uint64_t{0}; }},
+            {"size that wraps when aligned", MINIRT_ERROR_SECTION_OUT_OF_BOUNDS, "section 0",
+             [](Blob& b) { b.table()[0].size = ~uint64_t{0} - 100; }},
+            {"a missing section", MINIRT_ERROR_SECTION_MISSING, "PRIMS", [](Blob& b) { b.section("PRIMS").tag[0] = 'X'; }},
+            {"an odd size", MINIRT_ERROR_CORRUPT, "size", [](Blob& b) { b.section("NODES").size -= 4; }},
+            {"an empty section", MINIRT_ERROR_SECTION_OUT_OF_BOUNDS, "section", [](Blob& b) { b.section("MATERIAL").size = 0; }},
+        });
+    Blob blob(bake(dir, kMinimal));
+    CHECK(minirt_validate(nullptr, 100, nullptr, nullptr) == MINIRT_ERROR_INVALID_ARGUMENT);
+    CHECK(minirt_validate(blob.data() + 1, blob.size() - 1, nullptr, nullptr) == MINIRT_ERROR_INVALID_ARGUMENT);
+    CHECK(minirt_validate(blob.data(), blob.size(), nullptr, nullptr) == MINIRT_OK);
+}
+
+TEST_CASE("hierarchies that would never end or lead outside are refused by name") {
+    const std::vector<char> bytes = richBlob();
+    const minirt_result corrupt = MINIRT_ERROR_CORRUPT;
+    checkForgeries(
+        bytes,
+        {
+            {"the root as its own child", corrupt, "node 0 has no valid child", [](Blob& b) { childOf(b, 0, 0) = 0; }},
+            {"a cycle", corrupt, "has no valid child",
+             [](Blob& b) {
+                 int which;
+                 childOf(b, innerChild(b, &which), 0) = 0;
+             }},
+            {"a child of two parents", corrupt, "has no valid child",
+             [](Blob& b) {
+                 int which;
+                 childOf(b, 0, 1 - which) = innerChild(b, &which);
+             }},
+            {"a node without parent", corrupt, "has no parent",
+             [](Blob& b) {
+                 int which;
+                 innerChild(b, &which);
+                 childOf(b, 0, which) = MINIRT_LEAF;
+             }},
+            {"a child outside", corrupt, "no valid child", [](Blob& b) { childOf(b, 0, 0) = 1000000; }},
+            {"a leaf outside", corrupt, "leaf", [](Blob& b) { childOf(b, 0, 0) = MINIRT_LEAF | 1000000u << 3; }},
+            {"a leaf over the end", corrupt, "leaf",
+             [](Blob& b) { childOf(b, 0, 0) = MINIRT_LEAF | static_cast<uint32_t>(countOf(b, "PRIMS", 48) - 1) << 3 | 1; }},
+            {"the reference that means none", corrupt, "leaf", [](Blob& b) { childOf(b, 0, 0) = 0xffffffffu; }},
+            {"deeper than stated", corrupt, "deeper", [](Blob& b) { sceneOf(b).bvh_depth = 1; }},
+            {"no depth", corrupt, "depth 0", [](Blob& b) { sceneOf(b).bvh_depth = 0; }},
+            {"a depth of 65", corrupt, "depth 65", [](Blob& b) { sceneOf(b).bvh_depth = 65; }},
+            {"another layout", corrupt, "layout 2", [](Blob& b) { sceneOf(b).node_layout = 2; }},
+        });
+    checkForgeries(richBlob(minirtc::LayoutChoice::floating),
+                   {
+                       {"a box that is not a number", corrupt, "box", [](Blob& b) { b.contents<float>("NODES")[1] = kNan; }},
+                       {"an endless box", corrupt, "box", [](Blob& b) { b.contents<float>("NODES")[12] = kInfinity; }},
+                       {"a cycle", corrupt, "no valid child", [](Blob& b) { b.contents<uint32_t>("NODES")[3] = 0; }},
+                   });
+}
+
+TEST_CASE("numbers and references that no renderer may meet are refused by name") {
+    const minirt_result corrupt = MINIRT_ERROR_CORRUPT;
+    using Vec4 = minirt_vec4;
+    checkForgeries(
+        richBlob(),
+        {
+            {"vertex", corrupt, "primitive 1 ", [](Blob& b) { b.contents<Vec4>("PRIMS")[4].y = kNan; }},
+            {"material of a primitive", corrupt, "no material",
+             [](Blob& b) { b.contents<Vec4>("PRIMS")[0].w = asFloat(materialCount(b)); }},
+            {"corners of a primitive", corrupt, "no corners", [](Blob& b) { b.contents<Vec4>("PRIMS")[2].w = asFloat(1000000); }},
+            {"normal", corrupt, "normal", [](Blob& b) { b.contents<float>("NORMALS")[5] = kInfinity; }},
+            {"texture coordinate", corrupt, "texture coordinate", [](Blob& b) { b.contents<float>("UVS")[3] = kNan; }},
+            {"material", corrupt, "material 0", [](Blob& b) { b.contents<minirt_material>("MATERIAL")[0].transmit.y = kNan; }},
+            {"image of a material", corrupt, "no image",
+             [](Blob& b) { b.contents<minirt_material>("MATERIAL")[0].options.y = 77; }},
+            {"checker of nothing", corrupt, "checker", [](Blob& b) { checkerOf(b).options.z = 1000; }},
+            {"checker of itself", corrupt, "checker",
+             [](Blob& b) {
+                 checkerOf(b).options.w = static_cast<uint32_t>(&checkerOf(b) - b.contents<minirt_material>("MATERIAL"));
+             }},
+            {"checker without cells", corrupt, "checker", [](Blob& b) { checkerOf(b).checker.w = 0; }},
+            {"light", corrupt, "light", [](Blob& b) { b.contents<minirt_light>("LIGHTS")[0].intensity.z = kInfinity; }},
+            {"number of lights", corrupt, "2 lights", [](Blob& b) { rowsOf(b).counts.x = 2; }},
+            {"background image", corrupt, "background image 9", [](Blob& b) { rowsOf(b).counts.y = 9; }},
+            {"image without size", corrupt, "image 0", [](Blob& b) { b.contents<minirt_image>("IMAGES")[0].extent.x = 0; }},
+            {"image over the texels", corrupt, "image 0",
+             [](Blob& b) { b.contents<minirt_image>("IMAGES")[0].extent.y = 0xffffffffu; }},
+            {"image beyond the texels", corrupt, "image 0",
+             [](Blob& b) { b.contents<minirt_image>("IMAGES")[0].extent.z = 0xffffffffu; }},
+            {"image scale", corrupt, "image 0", [](Blob& b) { b.contents<minirt_image>("IMAGES")[0].scale.x = kNan; }},
+            {"texel", corrupt, "texel", [](Blob& b) { b.contents<uint16_t>("TEXELS")[6] = 0x7c00; }},
+            {"grid", corrupt, "grid", [](Blob& b) { rowsOf(b).gridScale.y = 0; }},
+            {"rows", corrupt, "rows", [](Blob& b) { rowsOf(b).background.w = kNan; }},
+            {"origin", corrupt, "not finite", [](Blob& b) { sceneOf(b).origin[2] = static_cast<double>(kInfinity); }},
+            {"camera", corrupt, "not finite", [](Blob& b) { sceneOf(b).camera.vfov = static_cast<double>(kNan); }},
+            {"cutoff", corrupt, "not finite", [](Blob& b) { sceneOf(b).throughput_cutoff = -1; }},
+            {"width", corrupt, "out of range", [](Blob& b) { sceneOf(b).width = 0; }},
+            {"height", corrupt, "out of range", [](Blob& b) { sceneOf(b).height = 16385; }},
+            {"samples", corrupt, "out of range", [](Blob& b) { sceneOf(b).samples = 0; }},
+            {"depth", corrupt, "out of range", [](Blob& b) { sceneOf(b).max_depth = 256; }},
+            {"no integrator", corrupt, "integrator 0", [](Blob& b) { sceneOf(b).integrator = 0; }},
+            {"another integrator", corrupt, "integrator 4", [](Blob& b) { sceneOf(b).integrator = 4; }},
+        });
+}
+
+TEST_CASE("kernels that are none are refused by name") {
+    const test::TemporaryDir dir;
+    const minirt_result corrupt = MINIRT_ERROR_CORRUPT;
+    checkForgeries(
+        bake(dir, kMinimal),
+        {
+            {"offset outside", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_offset = b.size() & ~uint64_t{3}; }},
+            {"size outside", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size += 4096; }},
+            {"size that wraps", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size = ~uint64_t{3}; }},
+            {"odd size", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size -= 2; }},
+            {"no code", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size = 0; }},
+            {"endless name", corrupt, "kernel 0", [](Blob& b) { std::memset(kernelOf(b).name, 'a', sizeof kernelOf(b).name); }},
+            {"other bindings", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).bindings |= 1u << MINIRT_BINDING_COUNT; }},
+            {"not SPIR-V", corrupt, "not SPIR-V", [](Blob& b) { b.contents<uint32_t>("SPIRV")[0] = 0x07230204u; }},
+        });
+}
