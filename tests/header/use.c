@@ -1,7 +1,7 @@
 /* A C99 unit that only uses the header; also compiled as C++. */
-#include "minirt.h"
-
 #include <string.h>
+
+#include "minirt.h"
 
 int useFromC(void);
 
