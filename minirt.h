@@ -57,8 +57,12 @@ extern "C" {
 
 /* >>layout
    The part between the marks is compiled as C99, C++ and GLSL. Rows of 16 bytes; uint for bool. */
-typedef struct minirt_vec4 { float x, y, z, w; } minirt_vec4;
-typedef struct minirt_uvec4 { uint32_t x, y, z, w; } minirt_uvec4;
+typedef struct minirt_vec4 {
+    float x, y, z, w;
+} minirt_vec4;
+typedef struct minirt_uvec4 {
+    uint32_t x, y, z, w;
+} minirt_uvec4;
 #define MINIRT_UINT uint32_t
 /* layout-begin */
 #define MINIRT_FORMAT_VERSION 1
@@ -138,7 +142,7 @@ struct minirt_material {
     minirt_vec4 transmit; /* rgb: weight of the refracted ray */
     minirt_vec4 emission; /* rgb: radiance */
     minirt_vec4 checker;  /* xyz: added to scene-space positions; w: cell size in metres */
-    minirt_uvec4 options; /* x: MINIRT_MATERIAL_ flags, y: image that multiplies diffuse or MINIRT_NONE, z, w: the checker's materials */
+    minirt_uvec4 options; /* x: MINIRT_MATERIAL_ flags, y: image times diffuse or MINIRT_NONE, z, w: the checker's materials */
 };
 
 struct minirt_light {
@@ -215,7 +219,7 @@ typedef struct minirt_camera {
 
 /* Section "SCENE": what the host needs to know. */
 typedef struct minirt_scene_desc {
-    double origin[3]; /* world position of scene-space zero */
+    double origin[3];                    /* world position of scene-space zero */
     double bounds_min[3], bounds_max[3]; /* scene space */
     minirt_camera camera;
     uint32_t width, height, samples, max_depth; /* defaults of a rendering */
@@ -295,8 +299,8 @@ typedef struct minirt_host_device {
 } minirt_host_device;
 
 typedef struct minirt_context_desc {
-    const char* device_name;  /* a part of the device's name, or its number from minirt_list_devices; NULL: the best */
-    minirt_log_callback log;  /* may be NULL */
+    const char* device_name; /* a part of the device's name, or its number from minirt_list_devices; NULL: the best */
+    minirt_log_callback log; /* may be NULL */
     void* log_user;
     minirt_allocator allocator;
     minirt_host_device host;
@@ -326,10 +330,10 @@ MINIRT_API void minirt_get_device_info(const minirt_context* context, minirt_dev
 typedef struct minirt_blob {
     const minirt_scene_desc* scene;
     const minirt_scene_rows* rows;
-    const uint32_t* nodes;      /* 8 words each, or 16 (MINIRT_NODES_FLOAT) */
+    const uint32_t* nodes;         /* 8 words each, or 16 (MINIRT_NODES_FLOAT) */
     const minirt_vec4* primitives; /* 3 rows each; w: material | MINIRT_PRIMITIVE_SPHERE, object, corners or MINIRT_NONE */
-    const minirt_vec4* normals; /* 3 rows each: the corners' unit normals */
-    const minirt_vec4* uvs;     /* 2 rows each: u0 v0 u1 v1, u2 v2 0 0 */
+    const minirt_vec4* normals;    /* 3 rows each: the corners' unit normals */
+    const minirt_vec4* uvs;        /* 2 rows each: u0 v0 u1 v1, u2 v2 0 0 */
     const minirt_material* materials;
     const minirt_light* lights;
     const minirt_image* images;
@@ -388,14 +392,14 @@ typedef struct minirt_region {
 } minirt_region;
 
 typedef struct minirt_render_desc {
-    uint32_t width, height;       /* 0: the scene's */
-    uint32_t samples;             /* a pixel; 0: the scene's */
-    uint32_t first_sample;        /* index of the first */
-    uint32_t max_depth;           /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
-    minirt_integrator integrator; /* 0: the scene's */
-    const minirt_camera* camera;  /* NULL: the scene's */
-    minirt_region region;         /* all zero: the whole image */
-    float max_dispatch_ms;        /* 0: 100 */
+    uint32_t width, height;            /* 0: the scene's */
+    uint32_t samples;                  /* a pixel; 0: the scene's */
+    uint32_t first_sample;             /* index of the first */
+    uint32_t max_depth;                /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
+    minirt_integrator integrator;      /* 0: the scene's */
+    const minirt_camera* camera;       /* NULL: the scene's */
+    minirt_region region;              /* all zero: the whole image */
+    float max_dispatch_ms;             /* 0: 100 */
     minirt_progress_callback progress; /* may be NULL */
     void* progress_user;
     minirt_stats* stats; /* may be NULL: written by minirt_render */
@@ -418,8 +422,8 @@ MINIRT_API void minirt_end(minirt_job* job);
    (VK_FORMAT_R32G32B32A32_SFLOAT, usage TRANSFER_DST, layout TRANSFER_DST_OPTIMAL, at least as large as the job's image).
    `camera` NULL: the job's. Pixels that need more than `passes` (0: 4) budgets of steps stay incomplete and count in traversal_cap.
    The host submits; the next call on the scene must wait until that has finished. */
-MINIRT_API minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage image, const minirt_camera* camera, uint32_t sample,
-                                       uint32_t passes);
+MINIRT_API minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage image, const minirt_camera* camera,
+                                       uint32_t sample, uint32_t passes);
 
 #ifdef __cplusplus
 }
@@ -477,9 +481,13 @@ inline double nowMs() {
 }
 
 template <typename T>
-T smaller(T a, T b) { return a < b ? a : b; }
+T smaller(T a, T b) {
+    return a < b ? a : b;
+}
 template <typename T>
-T larger(T a, T b) { return a > b ? a : b; }
+T larger(T a, T b) {
+    return a > b ? a : b;
+}
 
 /* >>implementation-allocation */
 inline void* hostAllocate(const minirt_allocator& allocator, size_t size) {
@@ -552,17 +560,22 @@ inline minirt_result readHeader(BlobReader& r) {
         return r.fail(MINIRT_ERROR_NOT_A_BLOB, "no minirt blob: the signature is missing");
     if (r.header.endian != MINIRT_ENDIAN_MARK) return r.fail(MINIRT_ERROR_VERSION, "the blob has another byte order");
     if (r.header.version != MINIRT_FORMAT_VERSION)
-        return r.fail(MINIRT_ERROR_VERSION, "format version %llu, this header reads %llu; bake the scene again", r.header.version, MINIRT_FORMAT_VERSION);
+        return r.fail(MINIRT_ERROR_VERSION, "format version %llu, this header reads %llu; bake the scene again", r.header.version,
+                      MINIRT_FORMAT_VERSION);
     if (r.header.total_size > r.size)
-        return r.fail(MINIRT_ERROR_TRUNCATED, "the blob has %llu bytes, its header says %llu; bake it again", r.size, r.header.total_size);
+        return r.fail(MINIRT_ERROR_TRUNCATED, "the blob has %llu bytes, its header says %llu; bake it again", r.size,
+                      r.header.total_size);
     if (r.header.total_size < r.size)
-        return r.fail(MINIRT_ERROR_TRUNCATED, "%llu bytes where the header says %llu; bake it again", r.size, r.header.total_size);
+        return r.fail(MINIRT_ERROR_TRUNCATED, "%llu bytes where the header says %llu; bake it again", r.size,
+                      r.header.total_size);
     if (r.header.section_count == 0 || r.header.section_count > MINIRT_MAX_SECTIONS)
         return r.fail(MINIRT_ERROR_CORRUPT, "%llu sections; 1 to %llu are possible", r.header.section_count, MINIRT_MAX_SECTIONS);
     return MINIRT_OK;
 }
 
-inline uint64_t alignSection(uint64_t size) { return (size + (MINIRT_SECTION_ALIGNMENT - 1)) & ~uint64_t(MINIRT_SECTION_ALIGNMENT - 1); }
+inline uint64_t alignSection(uint64_t size) {
+    return (size + (MINIRT_SECTION_ALIGNMENT - 1)) & ~uint64_t(MINIRT_SECTION_ALIGNMENT - 1);
+}
 
 inline minirt_result readTable(BlobReader& r, minirt_blob_section* table) {
     const uint64_t tableEnd = sizeof r.header + uint64_t(r.header.section_count) * sizeof(minirt_blob_section);
@@ -598,7 +611,9 @@ struct SectionFinder {
         for (uint32_t i = 0; i < reader.header.section_count; ++i) {
             if (memcmp(table[i].tag, padded, 8) != 0) continue;
             if (table[i].size % stride != 0 || table[i].size == 0) {
-                if (!reader.result) reader.fail(MINIRT_ERROR_CORRUPT, "section %llu has a size of %llu bytes, which does not fit its kind", i, table[i].size);
+                if (!reader.result)
+                    reader.fail(MINIRT_ERROR_CORRUPT, "section %llu has a size of %llu bytes, which does not fit its kind", i,
+                                table[i].size);
                 return nullptr;
             }
             *count = table[i].size / stride;
@@ -606,7 +621,8 @@ struct SectionFinder {
         }
         if (required && !reader.result) {
             reader.fail(MINIRT_ERROR_SECTION_MISSING, "a section is missing");
-            if (reader.validation) snprintf(reader.validation->message, sizeof reader.validation->message, "section %s is missing", tag);
+            if (reader.validation)
+                snprintf(reader.validation->message, sizeof reader.validation->message, "section %s is missing", tag);
         }
         return nullptr;
     }
@@ -620,7 +636,8 @@ inline minirt_result findSections(BlobReader& r, const minirt_blob_section* tabl
     blob.rows = finder.find<minirt_scene_rows>("ROWS", sizeof(minirt_scene_rows), &rows, true);
     if (r.result) return r.result;
     if (one != 1 || rows != 1) return r.fail(MINIRT_ERROR_CORRUPT, "more than one scene");
-    if (blob.scene->node_layout > MINIRT_NODES_FLOAT) return r.fail(MINIRT_ERROR_CORRUPT, "unknown node layout %llu", blob.scene->node_layout);
+    if (blob.scene->node_layout > MINIRT_NODES_FLOAT)
+        return r.fail(MINIRT_ERROR_CORRUPT, "unknown node layout %llu", blob.scene->node_layout);
     const uint64_t nodeBytes = blob.scene->node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
     blob.nodes = finder.find<uint32_t>("NODES", nodeBytes, &blob.node_count, true);
     blob.primitives = finder.find<minirt_vec4>("PRIMS", 48, &blob.primitive_count, true);
@@ -646,7 +663,8 @@ inline bool finiteDoubles(const double* values, int count) {
 
 inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
     const minirt_scene_desc& s = *b.scene;
-    if (!finiteDoubles(s.origin, 9) || !finiteDoubles(s.camera.position, 10) || !isfinite(s.throughput_cutoff) || s.throughput_cutoff < 0)
+    if (!finiteDoubles(s.origin, 9) || !finiteDoubles(s.camera.position, 10) || !isfinite(s.throughput_cutoff) ||
+        s.throughput_cutoff < 0)
         return r.fail(MINIRT_ERROR_CORRUPT, "the scene holds a number that is not finite");
     if (s.width == 0 || s.height == 0 || s.width > 16384 || s.height > 16384 || s.samples == 0 || s.max_depth > 255)
         return r.fail(MINIRT_ERROR_CORRUPT, "defaults of the rendering are out of range");
@@ -654,10 +672,14 @@ inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
         return r.fail(MINIRT_ERROR_CORRUPT, "unknown integrator %llu", s.integrator);
     if (s.bvh_depth == 0 || s.bvh_depth > 64) return r.fail(MINIRT_ERROR_CORRUPT, "a hierarchy of depth %llu", s.bvh_depth);
     const minirt_scene_rows& rows = *b.rows;
-    if (firstNonFinite(&rows, 1, 0, 16) != 1) return r.fail(MINIRT_ERROR_CORRUPT, "the scene's rows hold a number that is not finite");
-    if (rows.gridScale.x <= 0 || rows.gridScale.y <= 0 || rows.gridScale.z <= 0) return r.fail(MINIRT_ERROR_CORRUPT, "a grid of no size");
-    if (rows.counts.x != b.light_count) return r.fail(MINIRT_ERROR_CORRUPT, "%llu lights in a section of %llu", rows.counts.x, b.light_count);
-    if (rows.counts.y != MINIRT_NONE && rows.counts.y >= b.image_count) return r.fail(MINIRT_ERROR_CORRUPT, "no background image %llu", rows.counts.y);
+    if (firstNonFinite(&rows, 1, 0, 16) != 1)
+        return r.fail(MINIRT_ERROR_CORRUPT, "the scene's rows hold a number that is not finite");
+    if (rows.gridScale.x <= 0 || rows.gridScale.y <= 0 || rows.gridScale.z <= 0)
+        return r.fail(MINIRT_ERROR_CORRUPT, "a grid of no size");
+    if (rows.counts.x != b.light_count)
+        return r.fail(MINIRT_ERROR_CORRUPT, "%llu lights in a section of %llu", rows.counts.x, b.light_count);
+    if (rows.counts.y != MINIRT_NONE && rows.counts.y >= b.image_count)
+        return r.fail(MINIRT_ERROR_CORRUPT, "no background image %llu", rows.counts.y);
     return MINIRT_OK;
 }
 
@@ -679,8 +701,10 @@ inline minirt_result checkNodes(BlobReader& r, const minirt_blob& b, uint8_t* de
                 if (ref == 0xffffffffu || first >= b.primitive_count || count > b.primitive_count - first)
                     return r.fail(MINIRT_ERROR_CORRUPT, "a leaf of node %llu lies outside of the primitives", i);
             } else {
-                if (ref <= i || ref >= b.node_count || depth[ref] != 0) return r.fail(MINIRT_ERROR_CORRUPT, "node %llu has no valid child", i);
-                if (depth[i] >= b.scene->bvh_depth) return r.fail(MINIRT_ERROR_CORRUPT, "the hierarchy is deeper than %llu", b.scene->bvh_depth);
+                if (ref <= i || ref >= b.node_count || depth[ref] != 0)
+                    return r.fail(MINIRT_ERROR_CORRUPT, "node %llu has no valid child", i);
+                if (depth[i] >= b.scene->bvh_depth)
+                    return r.fail(MINIRT_ERROR_CORRUPT, "the hierarchy is deeper than %llu", b.scene->bvh_depth);
                 depth[ref] = static_cast<uint8_t>(depth[i] + 1);
             }
         }
@@ -704,15 +728,19 @@ inline minirt_result checkPrimitives(BlobReader& r, const minirt_blob& b) {
     const uint64_t bad = firstNonFinite(b.primitives, rows, 4, 3);
     if (bad != rows) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu holds a number that is not finite", bad / 3);
     const uint64_t cornerCount = b.normal_count ? b.normal_count : b.uv_count;
-    if (b.normal_count && b.uv_count && b.normal_count != b.uv_count) return r.fail(MINIRT_ERROR_CORRUPT, "normals and texture coordinates differ in number");
+    if (b.normal_count && b.uv_count && b.normal_count != b.uv_count)
+        return r.fail(MINIRT_ERROR_CORRUPT, "normals and texture coordinates differ in number");
     for (uint64_t i = 0; i < b.primitive_count; ++i) {
         const uint32_t material = bitsOf(b.primitives[3 * i].w) & ~MINIRT_PRIMITIVE_SPHERE;
         const uint32_t corners = bitsOf(b.primitives[3 * i + 2].w);
         if (material >= b.material_count) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no material", i);
-        if (corners != MINIRT_NONE && corners >= cornerCount) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no corners", i);
+        if (corners != MINIRT_NONE && corners >= cornerCount)
+            return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no corners", i);
     }
-    if (firstNonFinite(b.normals, b.normal_count * 3, 4, 4) != b.normal_count * 3) return r.fail(MINIRT_ERROR_CORRUPT, "a normal is not finite");
-    if (firstNonFinite(b.uvs, b.uv_count * 2, 4, 4) != b.uv_count * 2) return r.fail(MINIRT_ERROR_CORRUPT, "a texture coordinate is not finite");
+    if (firstNonFinite(b.normals, b.normal_count * 3, 4, 4) != b.normal_count * 3)
+        return r.fail(MINIRT_ERROR_CORRUPT, "a normal is not finite");
+    if (firstNonFinite(b.uvs, b.uv_count * 2, 4, 4) != b.uv_count * 2)
+        return r.fail(MINIRT_ERROR_CORRUPT, "a texture coordinate is not finite");
     return MINIRT_OK;
 }
 
@@ -723,12 +751,16 @@ inline bool isPlainMaterial(const minirt_blob& b, uint32_t index) {
 inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
     for (uint64_t i = 0; i < b.material_count; ++i) {
         const minirt_material& m = b.materials[i];
-        if (firstNonFinite(&m, 1, 0, 24) != 1) return r.fail(MINIRT_ERROR_CORRUPT, "material %llu holds a number that is not finite", i);
-        if (m.options.y != MINIRT_NONE && m.options.y >= b.image_count) return r.fail(MINIRT_ERROR_CORRUPT, "material %llu has no image", i);
-        if ((m.options.x & MINIRT_MATERIAL_CHECKER) && (!isPlainMaterial(b, m.options.z) || !isPlainMaterial(b, m.options.w) || m.checker.w <= 0))
+        if (firstNonFinite(&m, 1, 0, 24) != 1)
+            return r.fail(MINIRT_ERROR_CORRUPT, "material %llu holds a number that is not finite", i);
+        if (m.options.y != MINIRT_NONE && m.options.y >= b.image_count)
+            return r.fail(MINIRT_ERROR_CORRUPT, "material %llu has no image", i);
+        if ((m.options.x & MINIRT_MATERIAL_CHECKER) &&
+            (!isPlainMaterial(b, m.options.z) || !isPlainMaterial(b, m.options.w) || m.checker.w <= 0))
             return r.fail(MINIRT_ERROR_CORRUPT, "material %llu is no valid checker", i);
     }
-    if (b.light_count && firstNonFinite(b.lights, b.light_count, 12, 8) != b.light_count) return r.fail(MINIRT_ERROR_CORRUPT, "a light is not finite");
+    if (b.light_count && firstNonFinite(b.lights, b.light_count, 12, 8) != b.light_count)
+        return r.fail(MINIRT_ERROR_CORRUPT, "a light is not finite");
     for (uint64_t i = 0; i < b.image_count; ++i) {
         const minirt_image& image = b.images[i];
         const uint64_t texels = uint64_t(image.extent.x) * image.extent.y;
@@ -743,8 +775,8 @@ inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
 inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
     for (uint64_t i = 0; i < b.kernel_count; ++i) {
         const minirt_kernel& k = b.kernels[i];
-        if (k.spirv_offset > b.spirv_size || k.spirv_size > b.spirv_size - k.spirv_offset || k.spirv_size < 20 || k.spirv_size % 4 || k.spirv_offset % 4 ||
-            k.name[sizeof k.name - 1] != 0 || k.bindings >> MINIRT_BINDING_COUNT)
+        if (k.spirv_offset > b.spirv_size || k.spirv_size > b.spirv_size - k.spirv_offset || k.spirv_size < 20 ||
+            k.spirv_size % 4 || k.spirv_offset % 4 || k.name[sizeof k.name - 1] != 0 || k.bindings >> MINIRT_BINDING_COUNT)
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu is malformed", i);
         uint32_t magic;
         memcpy(&magic, b.spirv + k.spirv_offset, sizeof magic);
@@ -753,13 +785,15 @@ inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
     return MINIRT_OK;
 }
 
-inline minirt_result validate(const void* data, size_t size, minirt_blob* out, minirt_validation* validation, const minirt_allocator& allocator) {
+inline minirt_result validate(const void* data, size_t size, minirt_blob* out, minirt_validation* validation,
+                              const minirt_allocator& allocator) {
     minirt_blob blob = {};
     if (out) *out = blob;
     if (validation) validation->message[0] = 0;
     BlobReader r{static_cast<const uint8_t*>(data), size, {}, validation};
     if (!data) return r.fail(MINIRT_ERROR_INVALID_ARGUMENT, "no data");
-    if (reinterpret_cast<uintptr_t>(data) % 16) return r.fail(MINIRT_ERROR_INVALID_ARGUMENT, "the data is not aligned to 16 bytes");
+    if (reinterpret_cast<uintptr_t>(data) % 16)
+        return r.fail(MINIRT_ERROR_INVALID_ARGUMENT, "the data is not aligned to 16 bytes");
     minirt_blob_section table[MINIRT_MAX_SECTIONS];
     if (readHeader(r) || readTable(r, table) || findSections(r, table, blob) || checkScene(r, blob)) return r.result;
     uint8_t* depth = static_cast<uint8_t*>(hostAllocate(allocator, static_cast<size_t>(blob.node_count)));
@@ -772,20 +806,22 @@ inline minirt_result validate(const void* data, size_t size, minirt_blob* out, m
 }
 
 /* >>implementation-vulkan */
+/* clang-format off */
 #define MINIRT_INSTANCE_FUNCTIONS(X)                                                                                              \
     X(DestroyInstance) X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceProperties2)                 \
-    X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties) X(GetPhysicalDeviceFormatProperties)           \
+    X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties)           \
     X(CreateDevice) X(GetDeviceProcAddr)
 #define MINIRT_DEVICE_FUNCTIONS(X)                                                                                                \
-    X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit) X(QueueWaitIdle) X(DeviceWaitIdle) X(CreateBuffer) X(DestroyBuffer)         \
-    X(GetBufferMemoryRequirements) X(AllocateMemory) X(FreeMemory) X(BindBufferMemory) X(MapMemory) X(UnmapMemory)                \
+    X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit) X(QueueWaitIdle) X(CreateBuffer) X(DestroyBuffer)         \
+    X(GetBufferMemoryRequirements) X(AllocateMemory) X(FreeMemory) X(BindBufferMemory) X(MapMemory)                \
     X(CreateBufferView) X(DestroyBufferView) X(CreateShaderModule) X(DestroyShaderModule) X(CreateComputePipelines)               \
     X(DestroyPipeline) X(CreatePipelineLayout) X(DestroyPipelineLayout) X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout) \
     X(CreateDescriptorPool) X(DestroyDescriptorPool) X(AllocateDescriptorSets) X(UpdateDescriptorSets) X(CreateCommandPool)       \
-    X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer) X(ResetCommandBuffer)               \
+    X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) X(EndCommandBuffer)               \
     X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdDispatch) X(CmdPipelineBarrier) X(CmdCopyBuffer)         \
     X(CmdFillBuffer) X(CmdCopyBufferToImage) X(CreateFence) X(DestroyFence) X(WaitForFences) X(ResetFences) X(CreateQueryPool)    \
     X(DestroyQueryPool) X(CmdResetQueryPool) X(CmdWriteTimestamp) X(GetQueryPoolResults)
+/* clang-format on */
 
 struct Functions {
     PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
@@ -831,7 +867,7 @@ struct minirt_context {
     minirt_device_info info = {};
     VkPhysicalDeviceLimits limits = {};
     VkPhysicalDeviceMemoryProperties memoryProperties = {};
-    uint32_t stepBudget = 0;  // of a pixel in a dispatch
+    uint32_t stepBudget = 0;       // of a pixel in a dispatch
     double timestampPeriodNs = 0;  // 0: the queue has no timestamps
     uint64_t timestampMask = 0;
     VkCommandPool commandPool = VK_NULL_HANDLE;
@@ -884,7 +920,8 @@ namespace minirt_detail {
 
 constexpr uint32_t kBlockPixels = 64;
 
-inline minirt_result fail(minirt_context* c, minirt_result result, const char* format, const char* detail = "", long long number = 0) {
+inline minirt_result fail(minirt_context* c, minirt_result result, const char* format, const char* detail = "",
+                          long long number = 0) {
     if (result == MINIRT_ERROR_DEVICE_LOST) c->lost = true;
     snprintf(c->message, sizeof c->message, format, detail, number);
     if (c->log) c->log(c->logUser, MINIRT_LOG_ERROR, c->message);
@@ -893,11 +930,16 @@ inline minirt_result fail(minirt_context* c, minirt_result result, const char* f
 
 inline minirt_result check(minirt_context* c, VkResult result, const char* what) {
     switch (result) {
-        case VK_SUCCESS: return MINIRT_OK;
-        case VK_ERROR_OUT_OF_HOST_MEMORY: return fail(c, MINIRT_ERROR_OUT_OF_MEMORY, "%s: out of host memory", what);
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY: return fail(c, MINIRT_ERROR_DEVICE_OUT_OF_MEMORY, "%s: out of device memory", what);
-        case VK_ERROR_DEVICE_LOST: return fail(c, MINIRT_ERROR_DEVICE_LOST, "%s: the device was lost; destroy the context and start over", what);
-        default: return fail(c, MINIRT_ERROR_VULKAN, "%s failed with VkResult %lld", what, result);
+        case VK_SUCCESS:
+            return MINIRT_OK;
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return fail(c, MINIRT_ERROR_OUT_OF_MEMORY, "%s: out of host memory", what);
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return fail(c, MINIRT_ERROR_DEVICE_OUT_OF_MEMORY, "%s: out of device memory", what);
+        case VK_ERROR_DEVICE_LOST:
+            return fail(c, MINIRT_ERROR_DEVICE_LOST, "%s: the device was lost; destroy the context and start over", what);
+        default:
+            return fail(c, MINIRT_ERROR_VULKAN, "%s failed with VkResult %lld", what, result);
     }
 }
 
@@ -960,7 +1002,9 @@ inline VkDebugUtilsMessengerCreateInfoEXT messengerInfo(minirt_context* c) {
 
 inline bool hasValidationLayer(minirt_context* c) {
     uint32_t count = 0;
-    if (!c->vk.EnumerateInstanceLayerProperties || c->vk.EnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS || !count) return false;
+    if (!c->vk.EnumerateInstanceLayerProperties || c->vk.EnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS ||
+        !count)
+        return false;
     VkLayerProperties* layers = static_cast<VkLayerProperties*>(hostAllocate(c->allocator, count * sizeof(VkLayerProperties)));
     if (!layers) return false;
     bool found = false;
@@ -974,10 +1018,12 @@ inline minirt_result createInstance(minirt_context* c, int validation) {
     const PFN_vkGetInstanceProcAddr get = c->vk.GetInstanceProcAddr;
     loadFunction(c->vk.EnumerateInstanceLayerProperties, get(nullptr, "vkEnumerateInstanceLayerProperties"));
     loadFunction(c->vk.EnumerateInstanceVersion, get(nullptr, "vkEnumerateInstanceVersion"));
-    if (!loadFunction(c->vk.CreateInstance, get(nullptr, "vkCreateInstance"))) return fail(c, MINIRT_ERROR_NO_VULKAN, "the Vulkan loader has no vkCreateInstance");
+    if (!loadFunction(c->vk.CreateInstance, get(nullptr, "vkCreateInstance")))
+        return fail(c, MINIRT_ERROR_NO_VULKAN, "the Vulkan loader has no vkCreateInstance");
     uint32_t version = VK_API_VERSION_1_0;
     if (c->vk.EnumerateInstanceVersion) c->vk.EnumerateInstanceVersion(&version);
-    if (version < VK_API_VERSION_1_1) return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "Vulkan 1.1 is needed; the loader is older");
+    if (version < VK_API_VERSION_1_1)
+        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "Vulkan 1.1 is needed; the loader is older");
 
     VkApplicationInfo application = {};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
@@ -1009,7 +1055,8 @@ inline minirt_result createInstance(minirt_context* c, int validation) {
     }
     const VkResult created = c->vk.CreateInstance(&info, nullptr, &c->instance);
     if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
-        return fail(c, MINIRT_ERROR_NO_DEVICE, "no Vulkan driver found; install one (Debian: mesa-vulkan-drivers renders without a GPU)");
+        return fail(c, MINIRT_ERROR_NO_DEVICE,
+                    "no Vulkan driver found; install one (Debian: mesa-vulkan-drivers renders without a GPU)");
     if (minirt_result r = check(c, created, "vkCreateInstance")) return r;
     if (validate) {
         loadFunction(c->vk.CreateDebugUtilsMessenger, get(c->instance, "vkCreateDebugUtilsMessengerEXT"));
@@ -1060,8 +1107,8 @@ inline minirt_device_info describe(const minirt_context* c, VkPhysicalDevice dev
     minirt_device_info info = {};
     snprintf(info.name, sizeof info.name, "%s", properties.deviceName);
     snprintf(info.driver, sizeof info.driver, "Vulkan %u.%u.%u, driver %u.%u.%u", VK_API_VERSION_MAJOR(properties.apiVersion),
-             VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion), properties.driverVersion >> 22,
-             (properties.driverVersion >> 12) & 0x3ffu, properties.driverVersion & 0xfffu);
+             VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion),
+             properties.driverVersion >> 22, (properties.driverVersion >> 12) & 0x3ffu, properties.driverVersion & 0xfffu);
     info.api_version = properties.apiVersion;
     info.driver_version = properties.driverVersion;
     info.is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
@@ -1075,11 +1122,16 @@ inline int rank(const minirt_context* c, VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     c->vk.GetPhysicalDeviceProperties(device, &properties);
     switch (properties.deviceType) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
-        default: return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 4;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 3;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return 1;
+        default:
+            return 0;
     }
 }
 
@@ -1096,7 +1148,8 @@ inline uint32_t rankedDevices(minirt_context* c, VkPhysicalDevice* devices) {
             VkPhysicalDeviceProperties properties;
             c->vk.GetPhysicalDeviceProperties(all[i], &properties);
             uint32_t bits;
-            if (rank(c, all[i]) == wanted && properties.apiVersion >= VK_API_VERSION_1_1 && computeFamily(c, all[i], &bits) != UINT32_MAX)
+            if (rank(c, all[i]) == wanted && properties.apiVersion >= VK_API_VERSION_1_1 &&
+                computeFamily(c, all[i], &bits) != UINT32_MAX)
                 devices[usable++] = all[i];
         }
     }
@@ -1112,13 +1165,16 @@ inline bool isNumber(const char* text) {
 inline minirt_result pickDevice(minirt_context* c, const char* wanted) {
     VkPhysicalDevice devices[kMaxDevices];
     const uint32_t count = rankedDevices(c, devices);
-    if (!count) return fail(c, MINIRT_ERROR_NO_DEVICE, "no Vulkan device found; install a driver (Debian: mesa-vulkan-drivers renders without a GPU)");
+    if (!count)
+        return fail(c, MINIRT_ERROR_NO_DEVICE,
+                    "no Vulkan device found; install a driver (Debian: mesa-vulkan-drivers renders without a GPU)");
     uint32_t chosen = 0;
     if (wanted && *wanted) {
         chosen = isNumber(wanted) ? static_cast<uint32_t>(strtoul(wanted, nullptr, 10)) : count;
         for (uint32_t i = count; i-- > 0 && !isNumber(wanted);)
             if (strstr(describe(c, devices[i]).name, wanted)) chosen = i;
-        if (chosen >= count) return fail(c, MINIRT_ERROR_NO_DEVICE, "no Vulkan device matches '%s'; list them with: minirtc devices", wanted);
+        if (chosen >= count)
+            return fail(c, MINIRT_ERROR_NO_DEVICE, "no Vulkan device matches '%s'; list them with: minirtc devices", wanted);
     }
     c->physicalDevice = devices[chosen];
     return MINIRT_OK;
@@ -1135,7 +1191,9 @@ inline void readDeviceProperties(minirt_context* c, uint32_t timestampBits) {
     c->limits = properties.properties.limits;
     /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel that stays below
        65535 / subgroup size can never get there. */
-    c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ? 65535u / larger(subgroup.subgroupSize, 1u) - 64u : 1u << 18;
+    c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
+                        ? 65535u / larger(subgroup.subgroupSize, 1u) - 64u
+                        : 1u << 18;
     c->timestampPeriodNs = timestampBits ? static_cast<double>(c->limits.timestampPeriod) : 0.0;
     c->timestampMask = timestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << timestampBits) - 1;
     c->info = describe(c, c->physicalDevice);
@@ -1160,13 +1218,15 @@ inline minirt_result createCommandObjects(minirt_context* c) {
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = c->queueFamily;
-    if (minirt_result r = check(c, c->vk.CreateCommandPool(c->device, &pool, nullptr, &c->commandPool), "vkCreateCommandPool")) return r;
+    if (minirt_result r = check(c, c->vk.CreateCommandPool(c->device, &pool, nullptr, &c->commandPool), "vkCreateCommandPool"))
+        return r;
     VkCommandBufferAllocateInfo buffers = {};
     buffers.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
     buffers.commandPool = c->commandPool;
     buffers.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     buffers.commandBufferCount = 1;
-    if (minirt_result r = check(c, c->vk.AllocateCommandBuffers(c->device, &buffers, &c->commands), "vkAllocateCommandBuffers")) return r;
+    if (minirt_result r = check(c, c->vk.AllocateCommandBuffers(c->device, &buffers, &c->commands), "vkAllocateCommandBuffers"))
+        return r;
     VkFenceCreateInfo fence = {};
     fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     if (minirt_result r = check(c, c->vk.CreateFence(c->device, &fence, nullptr, &c->fence), "vkCreateFence")) return r;
@@ -1187,7 +1247,8 @@ inline minirt_result openContext(minirt_context* c, const minirt_context_desc& d
         if (minirt_result r = pickDevice(c, desc.device_name)) return r;
     } else {
         if (!desc.host.instance || !desc.host.physical_device || !desc.host.queue)
-            return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "minirt_host_device: with a device, instance, physical_device and queue are needed too");
+            return fail(c, MINIRT_ERROR_INVALID_ARGUMENT,
+                        "minirt_host_device: with a device, instance, physical_device and queue are needed too");
         c->instance = desc.host.instance;
         c->physicalDevice = desc.host.physical_device;
         c->device = desc.host.device;
@@ -1233,7 +1294,8 @@ inline uint32_t pickMemoryType(const minirt_context* c, uint32_t allowed, Placem
     constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     constexpr VkMemoryPropertyFlags visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags cached = visible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    const VkMemoryPropertyFlags preferences[3][3] = {{local | cached, local, 0}, {cached, visible, visible}, {visible, visible, visible}};
+    const VkMemoryPropertyFlags preferences[3][3] = {
+        {local | cached, local, 0}, {cached, visible, visible}, {visible, visible, visible}};
     for (VkMemoryPropertyFlags wanted : preferences[static_cast<int>(placement)]) {
         const uint32_t type = memoryType(c, allowed, wanted);
         if (type != UINT32_MAX) return type;
@@ -1248,7 +1310,8 @@ inline void destroyBuffer(minirt_context* c, Buffer& buffer) {
     buffer = Buffer();
 }
 
-inline minirt_result createBuffer(minirt_context* c, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement, Buffer& buffer) {
+inline minirt_result createBuffer(minirt_context* c, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement,
+                                  Buffer& buffer) {
     destroyBuffer(c, buffer);
     VkBufferCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -1263,13 +1326,17 @@ inline minirt_result createBuffer(minirt_context* c, VkDeviceSize size, VkBuffer
     allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocation.allocationSize = needs.size;
     allocation.memoryTypeIndex = type;
-    if (minirt_result r = check(c, c->vk.AllocateMemory(c->device, &allocation, nullptr, &buffer.memory), "vkAllocateMemory")) return r;
-    if (minirt_result r = check(c, c->vk.BindBufferMemory(c->device, buffer.buffer, buffer.memory, 0), "vkBindBufferMemory")) return r;
+    if (minirt_result r = check(c, c->vk.AllocateMemory(c->device, &allocation, nullptr, &buffer.memory), "vkAllocateMemory"))
+        return r;
+    if (minirt_result r = check(c, c->vk.BindBufferMemory(c->device, buffer.buffer, buffer.memory, 0), "vkBindBufferMemory"))
+        return r;
     buffer.size = size;
     constexpr VkMemoryPropertyFlags mappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const VkMemoryPropertyFlags flags = c->memoryProperties.memoryTypes[type].propertyFlags;
-    const bool map = (flags & mappable) == mappable && (placement != Placement::device || (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT));
-    return map ? check(c, c->vk.MapMemory(c->device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory") : MINIRT_OK;
+    const bool map =
+        (flags & mappable) == mappable && (placement != Placement::device || (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT));
+    return map ? check(c, c->vk.MapMemory(c->device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory")
+               : MINIRT_OK;
 }
 
 inline minirt_result beginCommands(minirt_context* c) {
@@ -1286,7 +1353,8 @@ inline minirt_result submitAndWait(minirt_context* c) {
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &c->commands;
     if (minirt_result r = check(c, c->vk.QueueSubmit(c->queue, 1, &submit, c->fence), "vkQueueSubmit")) return r;
-    if (minirt_result r = check(c, c->vk.WaitForFences(c->device, 1, &c->fence, VK_TRUE, UINT64_MAX), "vkWaitForFences")) return r;
+    if (minirt_result r = check(c, c->vk.WaitForFences(c->device, 1, &c->fence, VK_TRUE, UINT64_MAX), "vkWaitForFences"))
+        return r;
     return check(c, c->vk.ResetFences(c->device, 1, &c->fence), "vkResetFences");
 }
 
@@ -1295,16 +1363,19 @@ inline void memoryBarrier(minirt_context* c, VkCommandBuffer commands) {
     VkMemoryBarrier barrier = {};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
     const VkPipelineStageFlags work = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
     c->vk.CmdPipelineBarrier(commands, work, work | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 constexpr VkDeviceSize kStagingBytes = 64u << 20;
 
-inline minirt_result uploadThroughStaging(minirt_context* c, const Buffer& target, const void* data, VkDeviceSize size, Buffer& staging) {
+inline minirt_result uploadThroughStaging(minirt_context* c, const Buffer& target, const void* data, VkDeviceSize size,
+                                          Buffer& staging) {
     if (!staging.buffer)
-        if (minirt_result r = createBuffer(c, kStagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::upload, staging)) return r;
+        if (minirt_result r = createBuffer(c, kStagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::upload, staging))
+            return r;
     for (VkDeviceSize at = 0; at < size; at += kStagingBytes) {
         const VkDeviceSize part = smaller(kStagingBytes, size - at);
         memcpy(staging.mapped, static_cast<const uint8_t*>(data) + at, static_cast<size_t>(part));
@@ -1384,7 +1455,8 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
         if (!result) result = uploadPart(s, part.binding, part.data, part.size, staging);
     destroyBuffer(s->context, staging);
     if (result) return result;
-    return createBuffer(s->context, sizeof(minirt_counters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::readBack,
+    return createBuffer(s->context, sizeof(minirt_counters),
+                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::readBack,
                         s->buffers[MINIRT_BINDING_COUNTERS]);
 }
 
@@ -1405,7 +1477,9 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set.bindingCount = count;
     set.pBindings = entries;
-    if (minirt_result r = check(c, c->vk.CreateDescriptorSetLayout(c->device, &set, nullptr, &s->setLayout), "vkCreateDescriptorSetLayout")) return r;
+    if (minirt_result r =
+            check(c, c->vk.CreateDescriptorSetLayout(c->device, &set, nullptr, &s->setLayout), "vkCreateDescriptorSetLayout"))
+        return r;
     const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(minirt_frame)};
     VkPipelineLayoutCreateInfo layout = {};
     layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -1413,7 +1487,9 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     layout.pSetLayouts = &s->setLayout;
     layout.pushConstantRangeCount = 1;
     layout.pPushConstantRanges = &push;
-    if (minirt_result r = check(c, c->vk.CreatePipelineLayout(c->device, &layout, nullptr, &s->pipelineLayout), "vkCreatePipelineLayout")) return r;
+    if (minirt_result r =
+            check(c, c->vk.CreatePipelineLayout(c->device, &layout, nullptr, &s->pipelineLayout), "vkCreatePipelineLayout"))
+        return r;
 
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, MINIRT_BINDING_COUNT},
@@ -1423,7 +1499,9 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
     pool.maxSets = 1;
     pool.poolSizeCount = 3;
     pool.pPoolSizes = sizes;
-    if (minirt_result r = check(c, c->vk.CreateDescriptorPool(c->device, &pool, nullptr, &s->descriptorPool), "vkCreateDescriptorPool")) return r;
+    if (minirt_result r =
+            check(c, c->vk.CreateDescriptorPool(c->device, &pool, nullptr, &s->descriptorPool), "vkCreateDescriptorPool"))
+        return r;
     VkDescriptorSetAllocateInfo allocate = {};
     allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     allocate.descriptorPool = s->descriptorPool;
@@ -1434,7 +1512,8 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
 
 /* How a kernel is specialised for the class of the device. */
 struct Specialisation {
-    uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels, fetchTexels;
+    uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels,
+        fetchTexels;
 };
 
 inline Specialisation specialisation(const minirt_scene* scene) {
@@ -1450,7 +1529,8 @@ inline Specialisation specialisation(const minirt_scene* scene) {
     s.stepBudget = c->stepBudget;
     s.interleaveGroups = cpu;
     const VkDeviceSize range = c->limits.maxStorageBufferRange;
-    s.fetchTexels = cpu || scene->buffers[MINIRT_BINDING_NODES].size > range || scene->buffers[MINIRT_BINDING_PRIMITIVES].size > range;
+    s.fetchTexels =
+        cpu || scene->buffers[MINIRT_BINDING_NODES].size > range || scene->buffers[MINIRT_BINDING_PRIMITIVES].size > range;
     return s;
 }
 
@@ -1461,7 +1541,8 @@ inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel
     module.codeSize = static_cast<size_t>(kernel.spirv_size);
     module.pCode = static_cast<const uint32_t*>(static_cast<const void*>(s->spirv + kernel.spirv_offset));
     VkShaderModule shader = VK_NULL_HANDLE;
-    if (minirt_result r = check(c, c->vk.CreateShaderModule(c->device, &module, nullptr, &shader), "vkCreateShaderModule")) return r;
+    if (minirt_result r = check(c, c->vk.CreateShaderModule(c->device, &module, nullptr, &shader), "vkCreateShaderModule"))
+        return r;
 
     const Specialisation values = specialisation(s);
     static_assert(sizeof values == MINIRT_SPEC_COUNT * sizeof(uint32_t), "one word a constant, in the order of their ids");
@@ -1476,8 +1557,8 @@ inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel
     pipeline.stage.pName = "main";
     pipeline.stage.pSpecializationInfo = &info;
     pipeline.layout = s->pipelineLayout;
-    const minirt_result r =
-        check(c, c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, &s->pipeline), "vkCreateComputePipelines");
+    const minirt_result r = check(c, c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, &s->pipeline),
+                                  "vkCreateComputePipelines");
     c->vk.DestroyShaderModule(c->device, shader, nullptr);
     return r;
 }
@@ -1517,7 +1598,8 @@ inline void writeDescriptors(minirt_scene* s) {
         if (!(bindings >> b & 1u)) continue;
         const Buffer& buffer = s->buffers[bufferOf(b)];
         const bool storage = descriptorType(b) == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        buffers[b] = {buffer.buffer, 0, storage ? smaller<VkDeviceSize>(buffer.size, s->context->limits.maxStorageBufferRange) : VK_WHOLE_SIZE};
+        buffers[b] = {buffer.buffer, 0,
+                      storage ? smaller<VkDeviceSize>(buffer.size, s->context->limits.maxStorageBufferRange) : VK_WHOLE_SIZE};
         VkWriteDescriptorSet& write = writes[count++];
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = s->descriptorSet;
@@ -1566,7 +1648,8 @@ inline bool aimCamera(const minirt_scene_desc& scene, const minirt_camera& camer
         length2 += forward[i] * forward[i];
     }
     for (double& f : forward) f /= sqrt(length2);
-    for (int i = 0; i < 3; ++i) right[i] = forward[(i + 1) % 3] * camera.up[(i + 2) % 3] - forward[(i + 2) % 3] * camera.up[(i + 1) % 3];
+    for (int i = 0; i < 3; ++i)
+        right[i] = forward[(i + 1) % 3] * camera.up[(i + 2) % 3] - forward[(i + 2) % 3] * camera.up[(i + 1) % 3];
     const double rightLength = sqrt(right[0] * right[0] + right[1] * right[1] + right[2] * right[2]);
     for (double& x : right) x /= rightLength;
     const double halfHeight = tan(camera.vfov * 3.14159265358979323846 / 360.0);
@@ -1575,11 +1658,13 @@ inline bool aimCamera(const minirt_scene_desc& scene, const minirt_camera& camer
     float upward[3];
     for (int i = 0; i < 3; ++i) {
         position[i] = static_cast<float>(camera.position[i] - scene.origin[i]);
-        upward[i] = static_cast<float>((right[(i + 1) % 3] * forward[(i + 2) % 3] - right[(i + 2) % 3] * forward[(i + 1) % 3]) * halfHeight);
+        upward[i] = static_cast<float>((right[(i + 1) % 3] * forward[(i + 2) % 3] - right[(i + 2) % 3] * forward[(i + 1) % 3]) *
+                                       halfHeight);
     }
     frame.position = {position[0], position[1], position[2], scene.throughput_cutoff};
     frame.forward = {static_cast<float>(forward[0]), static_cast<float>(forward[1]), static_cast<float>(forward[2]), 0};
-    frame.right = {static_cast<float>(right[0] * halfWidth), static_cast<float>(right[1] * halfWidth), static_cast<float>(right[2] * halfWidth), 0};
+    frame.right = {static_cast<float>(right[0] * halfWidth), static_cast<float>(right[1] * halfWidth),
+                   static_cast<float>(right[2] * halfWidth), 0};
     frame.up = {upward[0], upward[1], upward[2], 0};
     const minirt_vec4* rows[] = {&frame.position, &frame.forward, &frame.right, &frame.up};
     for (const minirt_vec4* row : rows)
@@ -1603,12 +1688,14 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     if (!d.region.width && !d.region.height && !d.region.x && !d.region.y) d.region = {0, 0, d.width, d.height};
     if (!d.width || !d.height || d.width > 16384 || d.height > 16384)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "width and height must be 1 to 16384 (or both 0 for the scene's)");
-    if (d.max_depth > 255) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "max_depth must be at most 256 (a limit of 255 bounces)");
+    if (d.max_depth > 255)
+        return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "max_depth must be at most 256 (a limit of 255 bounces)");
     if (d.integrator > MINIRT_INTEGRATOR_WAVEFRONT) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "unknown integrator");
-    if (!d.region.width || !d.region.height || d.region.x > d.width || d.region.width > d.width - d.region.x || d.region.y > d.height ||
-        d.region.height > d.height - d.region.y)
+    if (!d.region.width || !d.region.height || d.region.x > d.width || d.region.width > d.width - d.region.x ||
+        d.region.y > d.height || d.region.height > d.height - d.region.y)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "the region lies outside of the image");
-    if (d.samples > UINT32_MAX - d.first_sample) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "first_sample + samples is too large");
+    if (d.samples > UINT32_MAX - d.first_sample)
+        return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "first_sample + samples is too large");
     job->camera = d.camera ? *d.camera : scene.camera;
     d.camera = &job->camera;
     return MINIRT_OK;
@@ -1631,14 +1718,17 @@ inline minirt_result allocateJobBuffers(minirt_job* job) {
     minirt_context* c = s->context;
     const VkDeviceSize pixels = VkDeviceSize(job->desc.width) * job->desc.height;
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    if (pixels * 16 > c->limits.maxStorageBufferRange) return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the image is too large for this device");
+    if (pixels * 16 > c->limits.maxStorageBufferRange)
+        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the image is too large for this device");
     if (minirt_result r = ensureBuffer(s, MINIRT_BINDING_FILM, pixels * 16, usage)) return r;
     if (minirt_result r = ensureBuffer(s, MINIRT_BINDING_RAY_COUNTS, pixels * 8, usage)) return r;
     const VkDeviceSize blockBytes = VkDeviceSize(stateWords(job)) * kBlockPixels * 4;
-    VkDeviceSize budget = c->info.is_cpu ? VkDeviceSize(64) << 20 : smaller<VkDeviceSize>(VkDeviceSize(1) << 30, c->info.memory_bytes / 8);
+    VkDeviceSize budget =
+        c->info.is_cpu ? VkDeviceSize(64) << 20 : smaller<VkDeviceSize>(VkDeviceSize(1) << 30, c->info.memory_bytes / 8);
     budget = smaller<VkDeviceSize>(budget, c->limits.maxStorageBufferRange);
     const VkDeviceSize fits = larger<VkDeviceSize>(budget / blockBytes, 1);
-    job->stateBlocks = static_cast<uint32_t>(smaller<VkDeviceSize>(smaller<VkDeviceSize>(fits, job->blockCount), c->limits.maxComputeWorkGroupCount[0]));
+    job->stateBlocks = static_cast<uint32_t>(
+        smaller<VkDeviceSize>(smaller<VkDeviceSize>(fits, job->blockCount), c->limits.maxComputeWorkGroupCount[0]));
     return ensureBuffer(s, MINIRT_BINDING_STATE, job->stateBlocks * blockBytes, 0);
 }
 
@@ -1676,7 +1766,8 @@ inline minirt_result dispatch(minirt_job* job, uint32_t groups, double* ms) {
     if (minirt_result r = submitAndWait(c)) return r;
     *ms = nowMs() - start;
     uint64_t ticks[2] = {};
-    if (timed && c->vk.GetQueryPoolResults(c->device, c->queries, 0, 2, sizeof ticks, ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT) == VK_SUCCESS)
+    if (timed && c->vk.GetQueryPoolResults(c->device, c->queries, 0, 2, sizeof ticks, ticks, sizeof ticks[0],
+                                           VK_QUERY_RESULT_64_BIT) == VK_SUCCESS)
         *ms = static_cast<double>((ticks[1] - ticks[0]) & c->timestampMask) * c->timestampPeriodNs * 1e-6;
     return MINIRT_OK;
 }
@@ -1702,7 +1793,9 @@ inline minirt_result warmUp(minirt_job* job) {
     return r;
 }
 
-inline minirt_counters* hostCounters(const minirt_scene* s) { return static_cast<minirt_counters*>(s->buffers[MINIRT_BINDING_COUNTERS].mapped); }
+inline minirt_counters* hostCounters(const minirt_scene* s) {
+    return static_cast<minirt_counters*>(s->buffers[MINIRT_BINDING_COUNTERS].mapped);
+}
 
 inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     minirt_scene* s = job->scene;
@@ -1710,7 +1803,8 @@ inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     job->startMs = nowMs();
     if (minirt_result r = resolveDesc(job, desc)) return r;
     const uint32_t kernel = findKernel(s, job->desc.integrator);
-    if (kernel == UINT32_MAX) return fail(c, MINIRT_ERROR_NO_KERNEL, "the blob holds no kernel for this integrator; bake the scene with it");
+    if (kernel == UINT32_MAX)
+        return fail(c, MINIRT_ERROR_NO_KERNEL, "the blob holds no kernel for this integrator; bake the scene with it");
     if (minirt_result r = activateKernel(s, kernel)) return r;
     const minirt_region& region = job->desc.region;
     job->blockCount = ((region.width + 7) / 8) * ((region.height + 7) / 8);
@@ -1825,7 +1919,8 @@ inline void destroyScene(minirt_scene* s) {
 
 inline minirt_result copyKernels(minirt_scene* s, const minirt_blob& blob) {
     const minirt_allocator& allocator = s->context->allocator;
-    s->kernels = static_cast<minirt_kernel*>(hostAllocate(allocator, static_cast<size_t>(blob.kernel_count) * sizeof(minirt_kernel)));
+    s->kernels =
+        static_cast<minirt_kernel*>(hostAllocate(allocator, static_cast<size_t>(blob.kernel_count) * sizeof(minirt_kernel)));
     s->spirv = static_cast<uint8_t*>(hostAllocate(allocator, static_cast<size_t>(blob.spirv_size)));
     if (!s->kernels || !s->spirv) return fail(s->context, MINIRT_ERROR_OUT_OF_MEMORY, "out of host memory");
     memcpy(s->kernels, blob.kernels, static_cast<size_t>(blob.kernel_count) * sizeof(minirt_kernel));
@@ -1932,26 +2027,46 @@ extern "C" {
 
 const char* minirt_result_string(minirt_result result) {
     switch (result) {
-        case MINIRT_OK: return "success";
-        case MINIRT_ERROR_INVALID_ARGUMENT: return "invalid argument";
-        case MINIRT_ERROR_OUT_OF_MEMORY: return "out of host memory";
-        case MINIRT_ERROR_NO_VULKAN: return "no Vulkan loader (Debian: install libvulkan1 and mesa-vulkan-drivers)";
-        case MINIRT_ERROR_NO_DEVICE: return "no such Vulkan device (Debian: mesa-vulkan-drivers renders without a GPU)";
-        case MINIRT_ERROR_DEVICE_UNSUPPORTED: return "the device cannot do this";
-        case MINIRT_ERROR_DEVICE_OUT_OF_MEMORY: return "out of device memory";
-        case MINIRT_ERROR_DEVICE_LOST: return "the device was lost";
-        case MINIRT_ERROR_VULKAN: return "a Vulkan call failed";
-        case MINIRT_ERROR_FILE: return "the file cannot be read";
-        case MINIRT_ERROR_NOT_A_BLOB: return "not a minirt blob";
-        case MINIRT_ERROR_VERSION: return "another version of the format";
-        case MINIRT_ERROR_TRUNCATED: return "the blob has the wrong length";
-        case MINIRT_ERROR_CHECKSUM: return "the blob is damaged";
-        case MINIRT_ERROR_SECTION_OUT_OF_BOUNDS: return "a section lies outside of the blob";
-        case MINIRT_ERROR_SECTION_MISSING: return "a section of the blob is missing";
-        case MINIRT_ERROR_CORRUPT: return "the blob's contents are invalid";
-        case MINIRT_ERROR_NO_KERNEL: return "the blob holds no kernel for this integrator";
-        case MINIRT_ERROR_BUSY: return "the scene is being rendered already";
-        case MINIRT_CANCELLED: return "cancelled";
+        case MINIRT_OK:
+            return "success";
+        case MINIRT_ERROR_INVALID_ARGUMENT:
+            return "invalid argument";
+        case MINIRT_ERROR_OUT_OF_MEMORY:
+            return "out of host memory";
+        case MINIRT_ERROR_NO_VULKAN:
+            return "no Vulkan loader (Debian: install libvulkan1 and mesa-vulkan-drivers)";
+        case MINIRT_ERROR_NO_DEVICE:
+            return "no such Vulkan device (Debian: mesa-vulkan-drivers renders without a GPU)";
+        case MINIRT_ERROR_DEVICE_UNSUPPORTED:
+            return "the device cannot do this";
+        case MINIRT_ERROR_DEVICE_OUT_OF_MEMORY:
+            return "out of device memory";
+        case MINIRT_ERROR_DEVICE_LOST:
+            return "the device was lost";
+        case MINIRT_ERROR_VULKAN:
+            return "a Vulkan call failed";
+        case MINIRT_ERROR_FILE:
+            return "the file cannot be read";
+        case MINIRT_ERROR_NOT_A_BLOB:
+            return "not a minirt blob";
+        case MINIRT_ERROR_VERSION:
+            return "another version of the format";
+        case MINIRT_ERROR_TRUNCATED:
+            return "the blob has the wrong length";
+        case MINIRT_ERROR_CHECKSUM:
+            return "the blob is damaged";
+        case MINIRT_ERROR_SECTION_OUT_OF_BOUNDS:
+            return "a section lies outside of the blob";
+        case MINIRT_ERROR_SECTION_MISSING:
+            return "a section of the blob is missing";
+        case MINIRT_ERROR_CORRUPT:
+            return "the blob's contents are invalid";
+        case MINIRT_ERROR_NO_KERNEL:
+            return "the blob holds no kernel for this integrator";
+        case MINIRT_ERROR_BUSY:
+            return "the scene is being rendered already";
+        case MINIRT_CANCELLED:
+            return "cancelled";
     }
     return "unknown result";
 }
@@ -2001,9 +2116,13 @@ void minirt_destroy(minirt_context* context) {
     minirt_detail::hostDelete(allocator, context);
 }
 
-const char* minirt_last_message(const minirt_context* context) { return context ? context->message : ""; }
+const char* minirt_last_message(const minirt_context* context) {
+    return context ? context->message : "";
+}
 
-void minirt_get_device_info(const minirt_context* context, minirt_device_info* info) { *info = context->info; }
+void minirt_get_device_info(const minirt_context* context, minirt_device_info* info) {
+    *info = context->info;
+}
 
 minirt_result minirt_list_devices(const minirt_context_desc* desc, minirt_device_info* infos, uint32_t* count) {
     using namespace minirt_detail;
@@ -2058,7 +2177,9 @@ void minirt_unload(minirt_scene* scene) {
     minirt_detail::destroyScene(scene);
 }
 
-void minirt_get_scene_desc(const minirt_scene* scene, minirt_scene_desc* desc) { *desc = scene->desc; }
+void minirt_get_scene_desc(const minirt_scene* scene, minirt_scene_desc* desc) {
+    *desc = scene->desc;
+}
 
 minirt_result minirt_begin(minirt_scene* scene, const minirt_render_desc* desc, minirt_job** out) {
     using namespace minirt_detail;
@@ -2141,7 +2262,8 @@ minirt_result minirt_render(minirt_scene* scene, const minirt_render_desc* desc,
     minirt_result r = MINIRT_OK;
     while (!r && !progress.done) {
         r = minirt_step(job, &progress);
-        if (!r && job->desc.progress && job->desc.progress(job->desc.progress_user, &progress) && !progress.done) r = MINIRT_CANCELLED;
+        if (!r && job->desc.progress && job->desc.progress(job->desc.progress_user, &progress) && !progress.done)
+            r = MINIRT_CANCELLED;
     }
     if (!r || r == MINIRT_CANCELLED) {
         const minirt_result read = minirt_read(job, rgba);
@@ -2152,7 +2274,8 @@ minirt_result minirt_render(minirt_scene* scene, const minirt_render_desc* desc,
     return r;
 }
 
-minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage image, const minirt_camera* camera, uint32_t sample, uint32_t passes) {
+minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage image, const minirt_camera* camera,
+                            uint32_t sample, uint32_t passes) {
     using namespace minirt_detail;
     if (!job || !commands || !image) return MINIRT_ERROR_INVALID_ARGUMENT;
     minirt_context* c = job->scene->context;
@@ -2176,7 +2299,8 @@ minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage i
     VkBufferImageCopy copy = {};
     copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     copy.imageExtent = {job->desc.width, job->desc.height, 1};
-    c->vk.CmdCopyBufferToImage(commands, job->scene->buffers[MINIRT_BINDING_FILM].buffer, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    c->vk.CmdCopyBufferToImage(commands, job->scene->buffers[MINIRT_BINDING_FILM].buffer, image,
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
     job->frame = before;
     return MINIRT_OK;
 }

@@ -8,28 +8,37 @@
 namespace minirtc {
 namespace {
 
-double nowMs() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double nowMs() {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 void printEffects(const EffectSet& effects) {
     for (size_t i = 0; i < kEffectCount; ++i) {
         const EffectChoice& choice = effects.choices[i];
-        std::cout << (choice.included ? "in   " : "out  ") << effectInfo(static_cast<Effect>(i)).name << ": " << choice.reason << "\n";
+        std::cout << (choice.included ? "in   " : "out  ") << effectInfo(static_cast<Effect>(i)).name << ": " << choice.reason
+                  << "\n";
     }
 }
 
 void saveGlsl(const std::string& dir, const std::vector<Kernel>& kernels) {
     std::filesystem::create_directories(dir);
-    for (const Kernel& kernel : kernels) writeFile(std::filesystem::path(dir) / (kernel.name + ".comp"), kernel.glsl.data(), kernel.glsl.size());
+    for (const Kernel& kernel : kernels)
+        writeFile(std::filesystem::path(dir) / (kernel.name + ".comp"), kernel.glsl.data(), kernel.glsl.size());
 }
 
-void writeStats(const std::string& path, const Geometry& geometry, const Bvh& bvh, const EffectSet& effects, const std::vector<Kernel>& kernels,
-                size_t blobBytes, double totalMs) {
+void writeStats(const std::string& path, const Geometry& geometry, const Bvh& bvh, const EffectSet& effects,
+                const std::vector<Kernel>& kernels, size_t blobBytes, double totalMs) {
     nlohmann::ordered_json json;
     json["triangles"] = geometry.primitives.size();
     json["degenerate_triangles"] = geometry.degenerateTriangles;
-    json["bvh"] = {{"nodes", bvh.nodes.size()}, {"leaves", bvh.leaves}, {"max_depth", bvh.depth}, {"sah_cost", bvh.sahCost}, {"build_ms", bvh.buildMs}};
+    json["bvh"] = {{"nodes", bvh.nodes.size()},
+                   {"leaves", bvh.leaves},
+                   {"max_depth", bvh.depth},
+                   {"sah_cost", bvh.sahCost},
+                   {"build_ms", bvh.buildMs}};
     for (size_t i = 0; i < kEffectCount; ++i) {
-        json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included}, {"reason", effects.choices[i].reason}};
+        json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included},
+                                                                    {"reason", effects.choices[i].reason}};
     }
     size_t spirvBytes = 0;
     for (const Kernel& kernel : kernels) spirvBytes += kernel.spirv.size() * sizeof(uint32_t);

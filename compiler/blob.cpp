@@ -14,7 +14,9 @@ constexpr float kThroughputCutoff = 1.0f / 512.0f;
 
 constexpr float kLargestHalf = 65504.0f;
 
-minirt_vec4 vec4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
+minirt_vec4 vec4(const glm::vec3& v, float w = 0) {
+    return {v.x, v.y, v.z, w};
+}
 
 float asFloat(uint32_t bits) {
     float value;
@@ -60,7 +62,9 @@ minirt_image encodeImage(const Image& image, bool repeats, std::vector<uint16_t>
 }
 
 /// The part of `origin` that a pattern with cells of `scale` can see.
-glm::vec3 checkerOffset(const glm::dvec3& origin, double scale) { return glm::vec3(origin - 2.0 * scale * glm::floor(origin / (2.0 * scale))); }
+glm::vec3 checkerOffset(const glm::dvec3& origin, double scale) {
+    return glm::vec3(origin - 2.0 * scale * glm::floor(origin / (2.0 * scale)));
+}
 
 minirt_material encodeMaterial(const Material& m, const Geometry& geometry, const ImagePlan& images) {
     minirt_material out = {};
@@ -70,8 +74,8 @@ minirt_material encodeMaterial(const Material& m, const Geometry& geometry, cons
     out.transmit = vec4(m.transmit);
     out.emission = vec4(m.emission);
     out.checker = vec4(checkerOffset(geometry.origin, m.checkerScale), m.checkerScale);
-    out.options = {(m.fresnel ? MINIRT_MATERIAL_FRESNEL : 0u) | (m.checker ? MINIRT_MATERIAL_CHECKER : 0u), images.place(m.diffuseTexture), m.checkerA,
-                   m.checkerB};
+    out.options = {(m.fresnel ? MINIRT_MATERIAL_FRESNEL : 0u) | (m.checker ? MINIRT_MATERIAL_CHECKER : 0u),
+                   images.place(m.diffuseTexture), m.checkerA, m.checkerB};
     return out;
 }
 
@@ -106,13 +110,15 @@ minirt_scene_rows encodeRows(const Scene& scene, const EncodedNodes& nodes, cons
     rows.gridScale = vec4(nodes.gridScale);
     rows.gridPlanes = vec4(nodes.gridPlanes);
     const bool image = scene.background.image != kNone;
-    rows.background = vec4(image ? glm::vec3(scene.background.strength) : scene.background.color,
-                           scene.background.rotation / 360.0f);
+    rows.background =
+        vec4(image ? glm::vec3(scene.background.strength) : scene.background.color, scene.background.rotation / 360.0f);
     rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.place(scene.background.image), 0, 0};
     return rows;
 }
 
-void copy(double (&to)[3], const glm::dvec3& from) { std::copy(&from.x, &from.x + 3, to); }
+void copy(double (&to)[3], const glm::dvec3& from) {
+    std::copy(&from.x, &from.x + 3, to);
+}
 
 minirt_scene_desc encodeScene(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes) {
     minirt_scene_desc desc = {};
@@ -134,14 +140,20 @@ minirt_scene_desc encodeScene(const Scene& scene, const Geometry& geometry, cons
     return desc;
 }
 
-std::string explain(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes, const EffectSet& effects) {
+std::string explain(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes,
+                    const EffectSet& effects) {
     nlohmann::ordered_json json;
     for (size_t i = 0; i < kEffectCount; ++i) {
-        json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included}, {"reason", effects.choices[i].reason}};
+        json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included},
+                                                                    {"reason", effects.choices[i].reason}};
     }
     json["objects"] = geometry.objectNames;
     for (const Material& material : scene.materials) json["materials"].push_back(material.name);
-    json["bvh"] = {{"nodes", bvh.nodes.size()}, {"leaves", bvh.leaves}, {"max_depth", bvh.depth}, {"sah_cost", bvh.sahCost}, {"encoded_sah_cost", nodes.sahCost}};
+    json["bvh"] = {{"nodes", bvh.nodes.size()},
+                   {"leaves", bvh.leaves},
+                   {"max_depth", bvh.depth},
+                   {"sah_cost", bvh.sahCost},
+                   {"encoded_sah_cost", nodes.sahCost}};
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -186,7 +198,9 @@ private:
         std::vector<uint8_t> bytes;
     };
 
-    static uint64_t align(uint64_t size) { return (size + MINIRT_SECTION_ALIGNMENT - 1) / MINIRT_SECTION_ALIGNMENT * MINIRT_SECTION_ALIGNMENT; }
+    static uint64_t align(uint64_t size) {
+        return (size + MINIRT_SECTION_ALIGNMENT - 1) / MINIRT_SECTION_ALIGNMENT * MINIRT_SECTION_ALIGNMENT;
+    }
 
     void writeHeader(std::vector<uint8_t>& blob, uint64_t headerSize) const {
         minirt_blob_header header = {};
@@ -223,7 +237,8 @@ void addKernels(BlobWriter& writer, const std::vector<Kernel>& kernels) {
 void addImages(BlobWriter& writer, const Scene& scene, const ImagePlan& plan) {
     std::vector<minirt_image> images;
     std::vector<uint16_t> texels;
-    for (size_t i = 0; i < plan.chosen.size(); ++i) images.push_back(encodeImage(scene.images[plan.chosen[i]], plan.repeats[i], texels));
+    for (size_t i = 0; i < plan.chosen.size(); ++i)
+        images.push_back(encodeImage(scene.images[plan.chosen[i]], plan.repeats[i], texels));
     writer.add("IMAGES", images);
     writer.add("TEXELS", texels);
 }
@@ -243,8 +258,8 @@ void addCorners(BlobWriter& writer, const Geometry& geometry, const EffectSet& e
 
 }  // namespace
 
-std::vector<uint8_t> assembleBlob(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes, const EffectSet& effects,
-                                  const std::vector<Kernel>& kernels) {
+std::vector<uint8_t> assembleBlob(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes,
+                                  const EffectSet& effects, const std::vector<Kernel>& kernels) {
     const ImagePlan images = planImages(scene, effects);
     std::vector<minirt_material> materials;
     for (const Material& material : scene.materials) materials.push_back(encodeMaterial(material, geometry, images));

@@ -12,9 +12,9 @@ struct BakeOptions {
     bool explain = false;
     bool allEffects = false;
     LayoutChoice layout = LayoutChoice::automatic;
-    unsigned threads = 0;      // 0: all cores
-    std::string saveGlslDir;   // "": do not
-    std::string statsFile;     // "": none
+    unsigned threads = 0;     // 0: all cores
+    std::string saveGlslDir;  // "": do not
+    std::string statsFile;    // "": none
     bool quiet = false;
 };
 

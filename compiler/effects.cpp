@@ -21,7 +21,9 @@ constexpr std::array<EffectInfo, kEffectCount> kEffects = {{
     {"float_nodes", "EFFECT_FLOAT_NODES", "16-bit boxes fit this scene"},
 }};
 
-bool nonZero(const glm::vec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+bool nonZero(const glm::vec3& v) {
+    return v.x > 0 || v.y > 0 || v.z > 0;
+}
 
 void callFor(EffectSet& effects, Effect effect, bool wanted, const std::string& reason) {
     EffectChoice& choice = effects[effect];
@@ -50,7 +52,9 @@ void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const s
 
 }  // namespace
 
-const EffectInfo& effectInfo(Effect effect) { return kEffects[static_cast<size_t>(effect)]; }
+const EffectInfo& effectInfo(Effect effect) {
+    return kEffects[static_cast<size_t>(effect)];
+}
 
 EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, bool floatNodes) {
     EffectSet effects;

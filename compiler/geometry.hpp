@@ -8,9 +8,9 @@ namespace minirtc {
 struct Primitive {
     std::array<glm::vec3, 3> p;
     bool isSphere = false;
-    uint32_t material = 0;       // index into Scene::materials
-    uint32_t object = 0;         // index into Geometry::objectNames
-    uint32_t corners = kNone;    // index into Geometry::corners; kNone: flat and untextured
+    uint32_t material = 0;     // index into Scene::materials
+    uint32_t object = 0;       // index into Geometry::objectNames
+    uint32_t corners = kNone;  // index into Geometry::corners; kNone: flat and untextured
 };
 
 /// Vertex attributes of a triangle that is smooth or textured.

@@ -3,8 +3,8 @@
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <spirv-tools/libspirv.hpp>
+#include <sstream>
 
 #include "commands.hpp"
 
@@ -35,14 +35,23 @@ nlohmann::ordered_json describe(const minirt_blob& blob) {
     const minirt_scene_desc& scene = *blob.scene;
     json["format_version"] = MINIRT_FORMAT_VERSION;
     json["bytes"] = blob.total_size;
-    json["counts"] = {{"nodes", blob.node_count},   {"primitives", blob.primitive_count}, {"smooth_or_textured", std::max(blob.normal_count, blob.uv_count)},
-                      {"materials", blob.material_count}, {"lights", blob.light_count},   {"images", blob.image_count},
+    json["counts"] = {{"nodes", blob.node_count},
+                      {"primitives", blob.primitive_count},
+                      {"smooth_or_textured", std::max(blob.normal_count, blob.uv_count)},
+                      {"materials", blob.material_count},
+                      {"lights", blob.light_count},
+                      {"images", blob.image_count},
                       {"texels", blob.texel_count}};
     json["node_layout"] = scene.node_layout == MINIRT_NODES_FLOAT ? "float" : "quantised";
-    json["defaults"] = {{"width", scene.width}, {"height", scene.height}, {"spp", scene.samples}, {"max_depth", scene.max_depth},
+    json["defaults"] = {{"width", scene.width},
+                        {"height", scene.height},
+                        {"spp", scene.samples},
+                        {"max_depth", scene.max_depth},
                         {"throughput_cutoff", scene.throughput_cutoff}};
     for (uint64_t i = 0; i < blob.kernel_count; ++i) {
-        json["kernels"].push_back({{"name", blob.kernels[i].name}, {"spirv_bytes", blob.kernels[i].spirv_size}, {"bindings", blob.kernels[i].bindings}});
+        json["kernels"].push_back({{"name", blob.kernels[i].name},
+                                   {"spirv_bytes", blob.kernels[i].spirv_size},
+                                   {"bindings", blob.kernels[i].bindings}});
     }
     return json;
 }

@@ -21,19 +21,19 @@ constexpr auto kToolsEnvironment = SPV_ENV_VULKAN_1_1;
 
 /// The order in which the parts of a kernel build on each other.
 const std::vector<std::string> kParts = {
-    "common/language.glsl",    "common/neighbours.glsl",
-    "common/numerics.glsl",    "common/pixel.glsl",
-    "common/patterns.glsl",    "bsdf/optics.glsl",
-    "traverse/box.glsl",       "traverse/triangle.glsl",
-    "traverse/sphere.glsl",    "layout",
-    "common/frame.glsl",       "common/fetch.glsl", "traverse/nodes.glsl",
-    "effects/spheres.glsl",    "traverse/traverse.glsl",
-    "common/suspend.glsl",     "effects/images.glsl",
-    "effects/background.glsl", "effects/smooth_normals.glsl",
-    "effects/textures.glsl",   "common/materials.glsl",
-    "effects/checker.glsl",    "common/surface.glsl",
-    "effects/lights.glsl",     "effects/scatter.glsl",
-    "effects/emission.glsl",
+    "common/language.glsl",        "common/neighbours.glsl",
+    "common/numerics.glsl",        "common/pixel.glsl",
+    "common/patterns.glsl",        "bsdf/optics.glsl",
+    "traverse/box.glsl",           "traverse/triangle.glsl",
+    "traverse/sphere.glsl",        "layout",
+    "common/frame.glsl",           "common/fetch.glsl",
+    "traverse/nodes.glsl",         "effects/spheres.glsl",
+    "traverse/traverse.glsl",      "common/suspend.glsl",
+    "effects/images.glsl",         "effects/background.glsl",
+    "effects/smooth_normals.glsl", "effects/textures.glsl",
+    "common/materials.glsl",       "effects/checker.glsl",
+    "common/surface.glsl",         "effects/lights.glsl",
+    "effects/scatter.glsl",        "effects/emission.glsl",
 };
 
 const std::string kHeader = R"(#version 460
@@ -44,7 +44,8 @@ const std::string kHeader = R"(#version 460
 )";
 
 [[noreturn]] void failInternally(const std::string& name, const std::string& stage, const std::string& log) {
-    throw Error("kernel '" + name + "' did not " + stage + ":\n" + log, "this is a defect of minirtc; please report it with the scene");
+    throw Error("kernel '" + name + "' did not " + stage + ":\n" + log,
+                "this is a defect of minirtc; please report it with the scene");
 }
 
 /// glslang keeps global state from its first use to the end of the process.
@@ -88,7 +89,9 @@ Compiled compileGlsl(const std::string& name, const std::string& source) {
 
 std::vector<uint32_t> optimise(const std::string& name, const std::vector<uint32_t>& spirv) {
     std::string log;
-    const auto consume = [&](spv_message_level_t, const char*, const spv_position_t&, const char* message) { log += std::string(message) + "\n"; };
+    const auto consume = [&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
+        log += std::string(message) + "\n";
+    };
     spvtools::Optimizer optimizer(kToolsEnvironment);
     optimizer.SetMessageConsumer(consume);
     optimizer.RegisterPerformancePasses();

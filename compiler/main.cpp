@@ -22,7 +22,9 @@ std::string oneLineFailure(const CLI::App* app, const CLI::Error& error) {
 
 void addBake(CLI::App& app, BakeOptions& options) {
     CLI::App* bake = app.add_subcommand("bake", "Bake a scene file into a blob");
-    bake->footer("Examples:\n  minirtc bake still_life.json -o still_life.mrt\n  minirtc bake still_life.json -o still_life.mrt --explain");
+    bake->footer(
+        "Examples:\n  minirtc bake still_life.json -o still_life.mrt\n  minirtc bake still_life.json -o still_life.mrt "
+        "--explain");
     bake->add_option("scene", options.scene, "Scene file (.json)")->required();
     bake->add_option("-o,--output", options.output, "Blob to write (.mrt)")->required();
     bake->add_flag("--explain", options.explain, "Print each effect, in or out of the kernels, and why");

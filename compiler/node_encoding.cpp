@@ -19,10 +19,13 @@ struct PlaneRange {
 PlaneRange quantise(float lo, float hi, float origin, float scale) {
     if (lo > hi) return {};
     const auto clampPlane = [](double p) { return static_cast<uint32_t>(std::clamp(p, 0.0, static_cast<double>(kGridPlanes))); };
-    return {clampPlane(std::floor((static_cast<double>(lo) - origin) / scale)), clampPlane(std::ceil((static_cast<double>(hi) - origin) / scale))};
+    return {clampPlane(std::floor((static_cast<double>(lo) - origin) / scale)),
+            clampPlane(std::ceil((static_cast<double>(hi) - origin) / scale))};
 }
 
-uint32_t reference(const BvhChild& child) { return child.count ? MINIRT_LEAF | child.index << 3 | (child.count - 1) : child.index; }
+uint32_t reference(const BvhChild& child) {
+    return child.count ? MINIRT_LEAF | child.index << 3 | (child.count - 1) : child.index;
+}
 
 uint32_t bits(float value) {
     uint32_t word;
@@ -53,7 +56,9 @@ EncodedNodes quantiseNodes(const Bvh& bvh, const Geometry& geometry) {
     const float largest = std::max({extent.x, extent.y, extent.z, 1e-30f});
     // A flat scene still gets cells, and the far side stays inside of the last plane after rounding.
     out.gridScale = glm::max(extent, glm::vec3(largest * 1e-6f)) / static_cast<float>(kGridPlanes) * 1.000001f;
-    const auto planes = [&](const Aabb& box, int axis) { return quantise(box.lo[axis], box.hi[axis], out.gridOrigin[axis], out.gridScale[axis]); };
+    const auto planes = [&](const Aabb& box, int axis) {
+        return quantise(box.lo[axis], box.hi[axis], out.gridOrigin[axis], out.gridScale[axis]);
+    };
     out.words.reserve(bvh.nodes.size() * 8);
     for (const BvhNode& node : bvh.nodes) {
         for (const BvhChild& child : node.child) {
@@ -90,7 +95,8 @@ EncodedNodes floatNodes(const Bvh& bvh, const Geometry& geometry) {
             out.words.insert(out.words.end(), {bits(box.hi.x), bits(box.hi.y), bits(box.hi.z), 0u});
         }
     }
-    out.sahCost = costOf(bvh, Aabb{geometry.boundsMin, geometry.boundsMax}.halfArea(), [](const BvhChild& child) { return child.box; });
+    out.sahCost =
+        costOf(bvh, Aabb{geometry.boundsMin, geometry.boundsMax}.halfArea(), [](const BvhChild& child) { return child.box; });
     return out;
 }
 

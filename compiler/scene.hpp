@@ -47,10 +47,10 @@ enum class LightType : uint32_t { point = 0, directional = 1 };
 
 struct Light {
     LightType type = LightType::point;
-    glm::dvec3 position{0};       // point
+    glm::dvec3 position{0};          // point
     glm::dvec3 direction{0, -1, 0};  // directional: the way the light travels, any length but 0
-    glm::vec3 intensity{1};       // W/sr, or irradiance in W/m^2 of a directional light
-    bool inverseSquare = true;    // false: "falloff":"none", the seeds' lights
+    glm::vec3 intensity{1};          // W/sr, or irradiance in W/m^2 of a directional light
+    bool inverseSquare = true;       // false: "falloff":"none", the seeds' lights
 };
 
 /// What light does at a surface, in the weights that the Whitted kernel uses. `phong`, `pbr` and .mtl materials all become this.
@@ -62,7 +62,7 @@ struct Material {
     glm::vec3 reflect{0};   // weight of the mirror ray
     glm::vec3 transmit{0};  // weight of the refracted ray
     float ior = 1.0f;
-    bool fresnel = false;   // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
+    bool fresnel = false;  // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
     glm::vec3 emission{0};
     uint32_t diffuseTexture = kNone;  // index into Scene::images; multiplies `diffuse`
     bool checker = false;             // a checker of the materials `checkerA` and `checkerB`; the rest is unused
@@ -116,15 +116,15 @@ struct Transform {
 enum class ShapeType { mesh, sphere, rectangle };
 
 struct Object {
-    std::string name;          // for messages: the mesh's path or the shape's kind and number
-    SourceLocation location;   // in the scene file
+    std::string name;         // for messages: the mesh's path or the shape's kind and number
+    SourceLocation location;  // in the scene file
     ShapeType shape = ShapeType::mesh;
-    uint32_t mesh = kNone;     // index into Scene::meshes
+    uint32_t mesh = kNone;  // index into Scene::meshes
     Sphere sphere;
     Rectangle rectangle;
-    uint32_t material = kNone;  // index into Scene::materials; kNone: the mesh's own .mtl
+    uint32_t material = kNone;                                     // index into Scene::materials; kNone: the mesh's own .mtl
     std::vector<Transform> instances = std::vector<Transform>(1);  // each instance becomes a copy in the blob
-    std::optional<bool> smooth;  // absent: smooth exactly where the OBJ gives normals
+    std::optional<bool> smooth;                                    // absent: smooth exactly where the OBJ gives normals
 };
 
 enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2 };

@@ -35,9 +35,12 @@ void requireWritable(const std::filesystem::path& path) {
 void writeFile(const std::filesystem::path& path, const void* data, size_t size) {
     std::string temporary = path.string() + ".XXXXXX";
     const int descriptor = ::mkstemp(temporary.data());
-    if (descriptor < 0) throw Error({path.string()}, std::string("cannot be written: ") + std::strerror(errno), "is its folder there and writable?");
+    if (descriptor < 0)
+        throw Error({path.string()}, std::string("cannot be written: ") + std::strerror(errno),
+                    "is its folder there and writable?");
     constexpr mode_t kReadableByAll = 0644;
-    bool good = writeAll(descriptor, static_cast<const uint8_t*>(data), size) && ::fchmod(descriptor, kReadableByAll) == 0 && ::fsync(descriptor) == 0;
+    bool good = writeAll(descriptor, static_cast<const uint8_t*>(data), size) && ::fchmod(descriptor, kReadableByAll) == 0 &&
+                ::fsync(descriptor) == 0;
     int reason = errno;
     if (::close(descriptor) != 0 && good) {
         good = false;
@@ -49,7 +52,8 @@ void writeFile(const std::filesystem::path& path, const void* data, size_t size)
     }
     if (good) return;
     ::unlink(temporary.c_str());
-    throw Error({path.string()}, std::string("cannot be written: ") + std::strerror(reason), "is there room, and is it no folder?");
+    throw Error({path.string()}, std::string("cannot be written: ") + std::strerror(reason),
+                "is there room, and is it no folder?");
 }
 
 }  // namespace minirtc

@@ -11,7 +11,9 @@ namespace test {
 void skip(const std::string& why);
 
 /// The folder of real scenes beside the project; it may be absent.
-inline std::filesystem::path sharedDir() { return MINIRT_SHARED_DIR; }
+inline std::filesystem::path sharedDir() {
+    return MINIRT_SHARED_DIR;
+}
 
 /// True when `path` below sharedDir() exists; else skips the case.
 inline bool haveShared(const std::string& path = "scenes") {

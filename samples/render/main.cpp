@@ -28,7 +28,9 @@ struct Options {
 };
 
 void addOptions(CLI::App& app, Options& o) {
-    app.footer("Examples:\n  minirt-render still_life.mrt -o still_life.png\n  minirt-render still_life.mrt -o still_life.exr --size 640x480 --spp 16");
+    app.footer(
+        "Examples:\n  minirt-render still_life.mrt -o still_life.png\n  minirt-render still_life.mrt -o still_life.exr --size "
+        "640x480 --spp 16");
     app.add_option("blob", o.blob, "Blob that minirtc baked (.mrt)")->required();
     app.add_option("-o,--output", o.output, "Picture to write (.png .exr .hdr .pfm)")->required();
     app.add_option("--size", o.size, "WIDTHxHEIGHT (default: the scene's)");
@@ -43,7 +45,8 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--samples", o.samples, "Render samples A up to, not including, B: A:B");
     app.add_option("--region", o.region, "Render only this part: X,Y,WIDTHxHEIGHT");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
-    app.add_option("--time-budget", o.timeBudget, "Stop after this many seconds with the samples that are there")->check(CLI::PositiveNumber);
+    app.add_option("--time-budget", o.timeBudget, "Stop after this many seconds with the samples that are there")
+        ->check(CLI::PositiveNumber);
     app.add_option("--stats", o.stats, "Write figures as JSON");
     app.add_flag("--validation", o.validation, "Check every Vulkan call with the Khronos validation layer");
 }
@@ -60,14 +63,16 @@ minirt_render_desc renderDesc(const Options& o) {
     desc.samples = o.spp;
     if (!o.samples.empty()) {
         uint32_t end = 0;
-        checkOption(std::sscanf(o.samples.c_str(), "%u:%u%n", &desc.first_sample, &end, &used) == 2 && whole(o.samples) && end > desc.first_sample,
+        checkOption(std::sscanf(o.samples.c_str(), "%u:%u%n", &desc.first_sample, &end, &used) == 2 && whole(o.samples) &&
+                        end > desc.first_sample,
                     "--samples: give A:B with A < B, such as 0:16");
         desc.samples = end - desc.first_sample;
     }
     minirt_region& r = desc.region;
     if (!o.region.empty())
-        checkOption(std::sscanf(o.region.c_str(), "%u,%u,%ux%u%n", &r.x, &r.y, &r.width, &r.height, &used) == 4 && whole(o.region),
-                    "--region: give X,Y,WIDTHxHEIGHT, such as 0,0,64x64");
+        checkOption(
+            std::sscanf(o.region.c_str(), "%u,%u,%ux%u%n", &r.x, &r.y, &r.width, &r.height, &used) == 4 && whole(o.region),
+            "--region: give X,Y,WIDTHxHEIGHT, such as 0,0,64x64");
     desc.max_depth = static_cast<uint32_t>(o.maxDepth + 1);
     desc.integrator = o.integrator;
     return desc;
@@ -90,7 +95,8 @@ private:
         if (terminal_ && seconds > 1.0) {
             constexpr int kWidth = 40;
             const int filled = static_cast<int>(progress.fraction * kWidth);
-            std::fprintf(stderr, "\r[%-*.*s] %3d %%", kWidth, filled, "########################################", static_cast<int>(progress.fraction * 100));
+            std::fprintf(stderr, "\r[%-*.*s] %3d %%", kWidth, filled, "########################################",
+                         static_cast<int>(progress.fraction * 100));
             shown_ = true;
         }
         return allowed_ > 0 && seconds > allowed_ && progress.samples_done > 0;
@@ -115,9 +121,12 @@ void writeStats(const std::string& path, const minirt_device_info& device, const
     json["load_ms"] = s.load_ms;
     json["upload_ms"] = s.upload_ms;
     json["rays"] = {{"primary", s.primary_rays}, {"shadow", s.shadow_rays}, {"secondary", s.secondary_rays}};
-    json["mrays_per_s"] = s.gpu_ms > 0 ? static_cast<double>(s.primary_rays + s.shadow_rays + s.secondary_rays) / s.gpu_ms * 1e-3 : 0.0;
+    json["mrays_per_s"] =
+        s.gpu_ms > 0 ? static_cast<double>(s.primary_rays + s.shadow_rays + s.secondary_rays) / s.gpu_ms * 1e-3 : 0.0;
     json["dispatches"] = {{"all", s.dispatches}, {"resumed", s.resumed_dispatches}};
-    json["counters"] = {{"nan_pixels", s.nan_pixels}, {"volume_overflow", s.volume_overflow}, {"segment_overflow", s.segment_overflow},
+    json["counters"] = {{"nan_pixels", s.nan_pixels},
+                        {"volume_overflow", s.volume_overflow},
+                        {"segment_overflow", s.segment_overflow},
                         {"traversal_cap", s.traversal_cap}};
     std::ofstream file(path);
     file << json.dump(2) << "\n";
@@ -147,7 +156,8 @@ void render(const Options& options) {
     desc.stats = &stats;
     const minirt_result result = minirt_render(scene, &desc, picture.rgba.data());
     bar.clear();
-    if (result != MINIRT_CANCELLED) device.require(result, options.blob);  // cancelled: the time budget is spent, the samples are fine
+    if (result != MINIRT_CANCELLED)
+        device.require(result, options.blob);  // cancelled: the time budget is spent, the samples are fine
     const std::string problem = writePicture(options.output, picture);
     if (!problem.empty()) throw std::runtime_error(problem);
     if (!options.stats.empty()) writeStats(options.stats, device.info(), stats);
