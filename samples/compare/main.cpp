@@ -29,7 +29,8 @@ Difference compare(const Picture& a, const Picture& b, double tolerance) {
         result.largest = std::max(result.largest, worst);
         if (worst > tolerance) ++result.pixels;
     }
-    result.rmse = std::sqrt(squares / (3.0 * static_cast<double>(a.rgba.size() / 4)));
+    const size_t pixels = a.rgba.size() / 4;
+    result.rmse = std::sqrt(squares / (3.0 * static_cast<double>(pixels)));
     return result;
 }
 

@@ -27,7 +27,6 @@ help_of() {
 programs=("$@" scripts/demo scripts/test)
 declare -A names
 for program in "${programs[@]}"; do names[${program##*/}]=1; done
-names[minirt-hello]=1
 names[minirt-viewer]=1 # left out of some builds
 
 # Commands anywhere: every word that looks like one of the project's.
