@@ -2,3 +2,5 @@
 #define MINIRT_IMPLEMENTATION
 // clang-format off
 #include "minirt.h"
+#include "minirt.h"
+// clang-format on
