@@ -142,8 +142,7 @@ struct minirt_material {
     minirt_vec4 transmit; /* rgb: weight of the refracted ray */
     minirt_vec4 emission; /* rgb: radiance */
     minirt_vec4 checker;  /* xyz: added to scene-space positions; w: cell size in metres */
-    minirt_uvec4
-        options; /* x: MINIRT_MATERIAL_ flags, y: image that multiplies diffuse or MINIRT_NONE, z, w: the checker's materials */
+    minirt_uvec4 options; /* x: MINIRT_MATERIAL_ flags; y: image times diffuse or MINIRT_NONE; z, w: of a checker */
 };
 
 struct minirt_light {
@@ -159,12 +158,11 @@ struct minirt_image {
 
 /* Pushed with each dispatch. */
 struct minirt_frame {
-    minirt_vec4 position; /* xyz: camera in scene space; w: rays with a smaller throughput are dropped */
-    minirt_vec4 forward;  /* unit */
-    minirt_vec4 right;    /* scaled to the half width of the image at distance 1 */
-    minirt_vec4 up;       /* scaled to its half height */
-    minirt_uvec4
-        size; /* x, y: width and height of the whole image; z: waiting segments that the state has room for; w: 1 in the last pass */
+    minirt_vec4 position;  /* xyz: camera in scene space; w: rays with a smaller throughput are dropped */
+    minirt_vec4 forward;   /* unit */
+    minirt_vec4 right;     /* scaled to the half width of the image at distance 1 */
+    minirt_vec4 up;        /* scaled to its half height */
+    minirt_uvec4 size;     /* x, y: image; z: room for waiting segments; w: 1 in the last pass */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
     minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
     minirt_uvec4 sampling; /* x: sample index, z: depth limit, w: 1 to go on with saved pixels */
