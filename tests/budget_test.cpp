@@ -183,23 +183,24 @@ Picture renderWithoutBudget(const TemporaryDir& dir, const std::string& json) {
 
 }  // namespace
 
-TEST_CASE("without the budget Mesa 22 cuts the same picture short") {
+TEST_CASE("without the budget this driver cuts the same pictures short") {
     {
         GpuContext gpu;
         if (!gpu) return;
-        minirt_device_info info;
-        minirt_get_device_info(gpu.get(), &info);
-        const bool known = std::string(info.name).find("llvmpipe") == 0 && info.api_version <= VK_MAKE_API_VERSION(0, 1, 3, 230);
-        if (!known) return test::skip("needs a driver that ends long loops");
     }
     TemporaryDir dir;
-    CHECK(!worksApart([&] { return mirrorError(renderWithoutBudget(dir, mirrorScene())) < 3e-5; }));
+    dir.write("needles.obj", needles(kNeedles));
+    const bool needlesRight = worksApart([&] { return isNeedlePicture(renderWithoutBudget(dir, needleScene())); });
+    const bool mirrorsRight = worksApart([&] { return mirrorError(renderWithoutBudget(dir, mirrorScene())) < 3e-5; });
+    if (needlesRight && mirrorsRight) return test::skip("this driver lets loops run on");
+    CHECK(!needlesRight);
+    CHECK(!mirrorsRight);
 }
 
 TEST_CASE("any budget of steps gives the same picture bit for bit") {
     TemporaryDir dir;
     Picture whole;
-    for (const uint32_t steps : {0u, 8u, 9u, 13u, 64u, 500u}) {
+    for (const uint32_t steps : {0u, 2u, 3u, 7u, 64u, 500u}) {
         CAPTURE(steps);
         GpuContext gpu;
         if (!gpu) return;

@@ -7,7 +7,7 @@ struct minirt_context;
 
 namespace test {
 
-/// The budget of steps a pixel has in a dispatch: of kernels that are specialised from now on. Under 8 some rays never get on.
+/// The budget of steps a pixel has in a dispatch: of kernels that are specialised from now on.
 uint32_t stepBudget(const minirt_context* context);
 void setStepBudget(minirt_context* context, uint32_t steps);
 

@@ -491,7 +491,7 @@ TEST_CASE("rays that are suspended find the same hits") {
     const Model model = modelOf(join(oracle::icosphere({0, 0, 0}, 1, 4), oracle::icosphere({1.5f, 0.2f, 0}, 0.7f, 4)));
     const std::vector<Ray> rays = oracle::randomRays(model.mesh, 5000, 6);
     std::vector<QueryHit> whole;
-    for (const uint32_t steps : {0u, 8u, 9u, 30u}) {
+    for (const uint32_t steps : {0u, 1u, 5u, 17u}) {
         CAPTURE(steps);
         GpuContext gpu;
         if (!gpu) return;
