@@ -25,8 +25,10 @@ Material readPhong(SceneFile& file, const JsonValue& value, const std::string& w
     material.shininess = static_cast<float>(object.number("shininess", 10, kPositive));
     material.ior = static_cast<float>(object.number("ior", 1.5, kPositive));
     material.fresnel = object.boolean("fresnel", false);
-    material.reflect = glm::vec3(material.fresnel ? reflect + refract : reflect);
-    material.transmit = glm::vec3(material.fresnel ? reflect + refract : refract);
+    // Fresnel shares out the sum of both weights; what has no refracted ray stays opaque.
+    const bool shares = material.fresnel && refract > 0;
+    material.reflect = glm::vec3(shares ? reflect + refract : reflect);
+    material.transmit = glm::vec3(shares ? reflect + refract : refract);
     return material;
 }
 

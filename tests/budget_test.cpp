@@ -156,6 +156,61 @@ TEST_CASE("a path of many bounces between many lights is not cut short") {
 
 namespace {
 
+constexpr int kColumns = 8;
+constexpr int kLightsAColumn = 1000;
+
+double columnX(int column) {
+    return 2.4 * (column - 3.5);
+}
+
+/// Eight points of a floor in one vector of lanes and thousands of lights in eight bunches. Before each lane and its own bunch hangs a
+/// stack of thin plates, which its shadow rays must all look at and pass: while one lane traverses, the other seven wait.
+std::string divergentScene(const TemporaryDir& dir) {
+    std::string plates;
+    for (int column = 0; column < kColumns; ++column) {
+        const double x = -0.15 + 0.1 * (column % 4), z = -0.045 + 0.09 * (column / 4);
+        const dvec3 stack(x + (columnX(column) - x) * 0.1, 1, 0.9 * z);
+        for (int k = 0; k < 150; ++k) {
+            const double shift = 4e-4 * std::fmod(k * 0.618034, 1.0);
+            for (const dvec3& corner : {dvec3(-0.015, -0.01, -0.01), dvec3(0.015, 0.01, 0.03), dvec3(-0.0145, -0.01, -0.01)}) {
+                const dvec3 p = stack + corner + dvec3(shift, 0.5 * shift, shift);
+                plates += "v " + number(p.x) + " " + number(p.y) + " " + number(p.z) + "\n";
+            }
+            plates += "f -3 -2 -1\n";
+        }
+    }
+    dir.write("plates.obj", plates);
+    std::string lights;
+    for (int i = 0; i < kColumns * kLightsAColumn; ++i)
+        lights += std::string(i ? "," : "") + R"({"type":"point","position":[)" +
+                  number(columnX(i % kColumns) + 2e-3 * std::fmod(i * 0.754878, 1.0)) + "," +
+                  number(10 + 2e-3 * std::fmod(i * 0.56984, 1.0)) + R"(,0],"intensity":[0.001,0.001,0.001],"falloff":"none"})";
+    return R"({"camera":{"position":[0,20,0],"target":[0,0,0],"up":[0,0,-1],"vfov":0.573},"render":{"size":[4,2]},"lights":[)" +
+           lights + R"(],"materials":{"m":{"model":"phong"}},
+        "objects":[{"rectangle":{"origin":[-9,0,9],"u":[18,0,0],"v":[0,0,-18]},"material":"m"},
+                   {"mesh":"plates.obj","material":"m"}]})";
+}
+
+}  // namespace
+
+TEST_CASE("lanes that wait for each other are not cut short") {
+    TemporaryDir dir;
+    std::filesystem::path blob;
+    Picture pictures[2];
+    for (const uint32_t steps : {500u, 0u}) {
+        GpuContext gpu;
+        if (!gpu) return;
+        if (steps) test::setStepBudget(gpu.get(), steps);
+        if (blob.empty()) blob = test::bakeScene(dir, divergentScene(dir));
+        pictures[steps ? 0 : 1] = LoadedScene(gpu, blob).render();
+    }
+    CHECK(pictures[1].stats.resumed_dispatches > 0);
+    CHECK(pictures[1].stats.shadow_rays == 8ull * kColumns * kLightsAColumn);
+    CHECK(pictures[0] == pictures[1]);
+}
+
+namespace {
+
 /// Whether `works` in a process of its own, for it may crash or hang; a minute is too long.
 bool worksApart(const std::function<bool()>& works) {
     const pid_t child = fork();

@@ -228,6 +228,10 @@ TEST_CASE("a scene that cannot be baked is refused by the name of the file at fa
                   {"noimage.json:1:", "missing.png"}},
                  {"unknown.json", meshScene("triangle.obj", R"("ligths": [],)"), {"unknown.json:1:", "ligths", "lights"}},
                  {"broken.json", "{\"camera\":", {"broken.json:1:"}},
+                 {"huge.json",
+                  R"({"materials": {"m": {"model": "phong", "diffuse": 1e30, "color": [1e30, 1, 1]}},)"
+                  R"("objects": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "m"}]})",
+                  {"huge.json", "material 0", "too large"}},
                  {"nothing.json", R"({"objects": []})", {"nothing.json:1:"}}};
     const test::TemporaryDir outputs;
     const std::string blob = (outputs.path() / "a.mrt").string();

@@ -221,6 +221,25 @@ TEST_CASE("the highlight is that of Phong") {
     CHECK(brightest > 0.99);
 }
 
+TEST_CASE("the floor in a mirror has the value of the closed form") {
+    GpuContext gpu;
+    if (!gpu) return;
+    // The mirror stands at z = -4 and shows the floor before it, lit from above.
+    const View view{{0, 2, 4}, {0, 1.5, -4}, 10};
+    const dvec3 light(1, 3, 2), intensity(10, 20, 30);
+    const Picture picture =
+        renderScene(gpu, "{" + view.text() + R"(,"lights":[)" + pointLight(light, intensity, "none") + R"(],"materials":{"m":)" +
+                             kPlaster + R"(,"mirror":{"model":"phong","diffuse":0,"reflect":0.75}},"objects":[)" + floorOf("m") +
+                             "," + rectangle({-10, 0, -4}, {20, 0, 0}, {0, 20, 0}, "mirror") + "]}");
+    checkPixels(picture, 1e-5, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+        const dvec3 d = view.direction(x, y), atMirror = view.position + d * ((-4 - view.position.z) / d.z);
+        if (atMirror.y < 1e-3) return std::nullopt;  // floor seen directly
+        const std::optional<dvec3> p = meetFloor(atMirror, {d.x, d.y, -d.z});
+        if (!p || p->z > 19.9) return p ? std::nullopt : std::optional<dvec3>(dvec3(0));
+        return 0.75 * kPlasterWeight * intensity * glm::normalize(light - *p).y;
+    });
+}
+
 TEST_CASE("what a mirror shows equals what is seen directly") {
     GpuContext gpu;
     if (!gpu) return;
@@ -752,6 +771,62 @@ TEST_CASE("a region equals the same part of the whole picture bit for bit") {
     }
 }
 
+namespace {
+
+Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, const std::string& text) {
+    minirtc::BakeOptions options;
+    options.scene = dir.write("all.json", text).string();
+    options.output = (dir.path() / "all.mrt").string();
+    options.allEffects = true;
+    options.quiet = true;
+    minirtc::bake(options);
+    return LoadedScene(gpu, options.output).render();
+}
+
+}  // namespace
+
+TEST_CASE("an opaque mirror with Fresnel is the same from both sides whatever else the kernel holds") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    const auto scene = [](double z) {
+        const View view{{1, 2, z}, {0, 0, 0}, 40, 24};
+        return "{" + view.text() + R"(,"background":{"color":[1,1,1]},"materials":{"m":{"model":"phong","diffuse":0,)" +
+               R"("reflect":1,"fresnel":true,"ior":1.5}},"objects":[)" + rectangle({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, "m") +
+               "]}";
+    };
+    for (const double z : {5.0, -5.0}) {
+        CAPTURE(z);
+        const Picture picture = renderScene(gpu, dir, scene(z));
+        CHECK(renderWithAllEffects(gpu, dir, scene(z)) == picture);
+        const View view{{1, 2, z}, {0, 0, 0}, 40, 24};
+        checkPixels(picture, 1e-5, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+            return dvec3(fresnel(std::abs(view.direction(x, y).z), 1.5));
+        });
+    }
+}
+
+TEST_CASE("a file that is background and texture wraps as each of them does") {
+    GpuContext gpu;
+    if (!gpu) return;
+    TemporaryDir dir;
+    // Three rows of one texel each: red, green, blue; uncompressed TGA, top row first.
+    std::string tga(18, '\0');
+    tga[2] = 2, tga[12] = 1, tga[14] = 3, tga[16] = 24, tga[17] = 0x20;
+    tga += std::string("\0\0\xff\0\xff\0\xff\0\0", 9);
+    dir.write("one.tga", tga);
+    dir.write("other.tga", tga);
+    dir.write("quad.obj", "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nvt 0 0\nvt 1 0\nvt 1 3\nvt 0 3\nf 1/1 2/2 3/3 4/4\n");
+    const View view{{0, 0, 6}, {0, 0, 0}, 60, 32};
+    const auto scene = [&](const std::string& texture) {
+        return "{" + view.text() +
+               R"(,"background":{"image":"one.tga"},"lights":[{"type":"directional","direction":[0,0,-1]}],)" +
+               R"("materials":{"m":{"model":"pbr","baseColor":")" + texture +
+               R"("}},"objects":[{"mesh":"quad.obj","material":"m"}]})";
+    };
+    CHECK(renderScene(gpu, dir, scene("one.tga")) == renderScene(gpu, dir, scene("other.tga")));
+}
+
 TEST_CASE("both node layouts and kernels with all effects give the same picture") {
     GpuContext gpu;
     if (!gpu) return;
@@ -760,11 +835,5 @@ TEST_CASE("both node layouts and kernels with all effects give the same picture"
         LoadedScene(gpu, test::bakeScene(dir, busyScene(kBusyView), minirtc::LayoutChoice::quantised)).render();
     const Picture exact = LoadedScene(gpu, test::bakeScene(dir, busyScene(kBusyView), minirtc::LayoutChoice::floating)).render();
     CHECK(quantised == exact);
-    minirtc::BakeOptions options;
-    options.scene = dir.write("scene.json", busyScene(kBusyView)).string();
-    options.output = (dir.path() / "all.mrt").string();
-    options.allEffects = true;
-    options.quiet = true;
-    minirtc::bake(options);
-    CHECK(LoadedScene(gpu, options.output).render() == quantised);
+    CHECK(renderWithAllEffects(gpu, dir, busyScene(kBusyView)) == quantised);
 }
