@@ -24,7 +24,7 @@
    contexts are independent. After MINIRT_ERROR_DEVICE_LOST every call on that context returns the same; destroy it and start over.
 
    Progressive rendering and cancel: minirt_begin, minirt_step until progress.done, minirt_read at any time between, minirt_end.
-   A step submits one dispatch, sized by measurement to last at most minirt_render_desc::max_dispatch_ms, so that neither watchdogs
+   A step submits one dispatch, sized by measurement to last about minirt_render_desc::max_dispatch_ms, so that neither watchdogs
    nor users wait. In a host's own frame: minirt_record.
 
    The blob's layout is described in docs/blob_format.md and defined below, under >>layout. */
