@@ -65,7 +65,7 @@ typedef struct minirt_uvec4 {
 } minirt_uvec4;
 #define MINIRT_UINT uint32_t
 /* layout-begin */
-#define MINIRT_FORMAT_VERSION 1
+#define MINIRT_FORMAT_VERSION 2
 
 #define MINIRT_NONE 0xffffffffu
 #define MINIRT_RAY_END 3.0e38f
@@ -80,13 +80,15 @@ typedef struct minirt_uvec4 {
 #define MINIRT_BINDING_LIGHTS 6
 #define MINIRT_BINDING_IMAGES 7
 #define MINIRT_BINDING_TEXELS 8
-#define MINIRT_BINDING_FILM 9
-#define MINIRT_BINDING_RAY_COUNTS 10
-#define MINIRT_BINDING_STATE 11
-#define MINIRT_BINDING_COUNTERS 12
-#define MINIRT_BINDING_NODE_STORAGE 13
-#define MINIRT_BINDING_PRIMITIVE_STORAGE 14
-#define MINIRT_BINDING_COUNT 15
+#define MINIRT_BINDING_MEDIA 9
+#define MINIRT_BINDING_SPECTRUM 10
+#define MINIRT_BINDING_FILM 11
+#define MINIRT_BINDING_RAY_COUNTS 12
+#define MINIRT_BINDING_STATE 13
+#define MINIRT_BINDING_COUNTERS 14
+#define MINIRT_BINDING_NODE_STORAGE 15
+#define MINIRT_BINDING_PRIMITIVE_STORAGE 16
+#define MINIRT_BINDING_COUNT 17
 
 /* Specialisation constants: what differs between a CPU device and a GPU. */
 #define MINIRT_SPEC_GROUP_SIZE 0
@@ -99,10 +101,10 @@ typedef struct minirt_uvec4 {
 #define MINIRT_SPEC_FETCH_TEXELS 7
 #define MINIRT_SPEC_COUNT 8
 
-/* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp). */
-#define MINIRT_WALK_WORDS 21
-#define MINIRT_TRAVERSAL_WORDS 10
-#define MINIRT_SEGMENT_WORDS 10
+/* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp); `volumes`: entries of a ray's VolumeList. */
+#define MINIRT_WALK_WORDS(volumes) (21u + 2u * (volumes))
+#define MINIRT_TRAVERSAL_WORDS 10u
+#define MINIRT_SEGMENT_WORDS(volumes) (10u + (volumes))
 
 /* Node references. */
 #define MINIRT_LEAF 0x80000000u
@@ -112,6 +114,8 @@ typedef struct minirt_uvec4 {
 
 #define MINIRT_MATERIAL_FRESNEL 1u
 #define MINIRT_MATERIAL_CHECKER 2u
+#define MINIRT_MATERIAL_THIN 4u
+#define MINIRT_MATERIAL_CLEAR_SHADOWS 8u
 
 #define MINIRT_LIGHT_DIRECTIONAL 1u
 #define MINIRT_LIGHT_INVERSE_SQUARE 2u
@@ -125,6 +129,7 @@ typedef struct minirt_uvec4 {
 #define MINIRT_MATERIAL_ROWS 7
 #define MINIRT_LIGHT_ROWS 3
 #define MINIRT_IMAGE_ROWS 2
+#define MINIRT_MEDIUM_ROWS 5
 
 /* What a kernel reads of the scene as a whole. Positions in the blob are relative to minirt_scene_desc::origin ("scene space"). */
 struct minirt_scene_rows {
@@ -132,7 +137,9 @@ struct minirt_scene_rows {
     minirt_vec4 gridScale;  /* xyz: metres between planes */
     minirt_vec4 gridPlanes; /* xyz: the largest plane number in use */
     minirt_vec4 background; /* rgb: radiance, or the factor of the image; w: rotation of the image in turns */
-    minirt_uvec4 counts;    /* x: lights, y: index of the background image or MINIRT_NONE */
+    minirt_vec4 boundsMin;  /* xyz: of everything, scene space */
+    minirt_vec4 boundsMax;
+    minirt_uvec4 counts;    /* x: lights, y: index of the background image or MINIRT_NONE, z: volumes */
 };
 
 struct minirt_material {
@@ -156,6 +163,15 @@ struct minirt_image {
     minirt_vec4 scale;   /* x: factor of the stored texels */
 };
 
+/* Medium 0 surrounds the scene; medium v + 1 fills volume v. */
+struct minirt_medium {
+    minirt_vec4 absorption; /* rgb: 1/m; w: share of the light taken away that comes back as the medium's own */
+    minirt_vec4 ior;        /* rgb: index of refraction for each channel by itself; w: for all light */
+    minirt_vec4 iorCurve;   /* index of refraction x + y c + z c^2 + w c^3, with c = 1 / wavelength^2 in 1/um^2 */
+    minirt_vec4 boundsMin;  /* xyz: of the volume, scene space */
+    minirt_vec4 boundsMax;
+};
+
 /* Pushed with each dispatch. */
 struct minirt_frame {
     minirt_vec4 position;  /* xyz: camera in scene space; w: rays with a smaller throughput are dropped */
@@ -165,7 +181,7 @@ struct minirt_frame {
     minirt_uvec4 size;     /* x, y: image; z: room for waiting segments; w: 1 in the last pass */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
     minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
-    minirt_uvec4 sampling; /* x: sample index, z: depth limit, w: 1 to go on with saved pixels */
+    minirt_uvec4 sampling; /* x: sample index, y: 1 where the camera may be in a volume, z: depth limit, w: 1 to go on with saved pixels */
 };
 
 struct minirt_counters {
@@ -173,6 +189,7 @@ struct minirt_counters {
     MINIRT_UINT nan_pixels;       /* samples that were NaN and count as black */
     MINIRT_UINT segment_overflow; /* rays dropped because the state had no room */
     MINIRT_UINT unfinished;       /* pixels that were pending in the last pass they get */
+    MINIRT_UINT volume_overflow;  /* boundaries passed over because a ray was in more volumes than its list holds */
 };
 /* layout-end */
 
@@ -227,7 +244,9 @@ typedef struct minirt_scene_desc {
     uint32_t node_layout;                       /* minirt_node_layout */
     uint32_t bvh_depth;                         /* entries that a traversal's stack needs */
     float throughput_cutoff;
-    uint64_t reserved[4];
+    uint32_t volume_capacity; /* entries of a ray's list of volumes; 0: kernels keep none */
+    uint32_t reserved_word;
+    uint64_t reserved[3];
 } minirt_scene_desc;
 
 /* Section "KERNELS": an entry a kernel; its SPIR-V is in section "SPIRV". */
@@ -235,7 +254,7 @@ typedef struct minirt_kernel {
     char name[16];
     uint64_t spirv_offset, spirv_size; /* bytes in section "SPIRV", multiples of 4 */
     uint32_t bindings;                 /* bit b: the kernel uses binding b */
-    uint32_t waits;                    /* 1: a pixel may hold one waiting segment a level of depth */
+    uint32_t waits; /* 0: no ray waits for another; else a pixel's list holds the depth limit + waits - 1 of them */
     uint64_t reserved[3];
 } minirt_kernel;
 
@@ -243,6 +262,7 @@ typedef struct minirt_scene_rows minirt_scene_rows;
 typedef struct minirt_material minirt_material;
 typedef struct minirt_light minirt_light;
 typedef struct minirt_image minirt_image;
+typedef struct minirt_medium minirt_medium;
 typedef struct minirt_frame minirt_frame;
 typedef struct minirt_counters minirt_counters;
 
@@ -331,17 +351,18 @@ typedef struct minirt_blob {
     const minirt_scene_desc* scene;
     const minirt_scene_rows* rows;
     const uint32_t* nodes;         /* 8 words each, or 16 (MINIRT_NODES_FLOAT) */
-    const minirt_vec4* primitives; /* 3 rows each; w: material | MINIRT_PRIMITIVE_SPHERE, object, corners or MINIRT_NONE */
+    const minirt_vec4* primitives; /* 3 rows each; w: material | MINIRT_PRIMITIVE_SPHERE, body (volumes first), corners or MINIRT_NONE */
     const minirt_vec4* normals;    /* 3 rows each: the corners' unit normals */
     const minirt_vec4* uvs;        /* 2 rows each: u0 v0 u1 v1, u2 v2 0 0 */
     const minirt_material* materials;
     const minirt_light* lights;
     const minirt_image* images;
+    const minirt_medium* media; /* one more than there are volumes, or none at all */
     const uint16_t* texels; /* 4 half floats each: linear rgba */
     const minirt_kernel* kernels;
     const uint8_t* spirv;
     const char* explain; /* JSON: effects with their reasons, objects, sizes (docs/blob_format.md); not terminated */
-    uint64_t node_count, primitive_count, normal_count, uv_count, material_count, light_count, image_count, texel_count,
+    uint64_t node_count, primitive_count, normal_count, uv_count, material_count, light_count, image_count, medium_count, texel_count,
         kernel_count, spirv_size, explain_size, total_size;
 } minirt_blob;
 
@@ -468,10 +489,11 @@ static_assert(sizeof(minirt_blob_header) == 64, "layout of the blob");
 static_assert(sizeof(minirt_blob_section) == 32, "layout of the blob");
 static_assert(sizeof(minirt_scene_desc) == 216, "layout of the blob");
 static_assert(sizeof(minirt_kernel) == 64, "layout of the blob");
-static_assert(sizeof(minirt_scene_rows) == 80, "layout shared with shaders");
+static_assert(sizeof(minirt_scene_rows) == 112, "layout shared with shaders");
 static_assert(sizeof(minirt_material) == 112, "layout shared with shaders");
 static_assert(sizeof(minirt_light) == 48, "layout shared with shaders");
 static_assert(sizeof(minirt_image) == 32, "layout shared with shaders");
+static_assert(sizeof(minirt_medium) == 80, "layout shared with shaders");
 static_assert(sizeof(minirt_frame) == 128, "the push constants that every device has");
 static_assert(std::is_trivially_copyable<minirt_scene_desc>::value, "read from files");
 
@@ -647,6 +669,7 @@ inline minirt_result findSections(BlobReader& r, const minirt_blob_section* tabl
     blob.materials = finder.find<minirt_material>("MATERIAL", sizeof(minirt_material), &blob.material_count, true);
     blob.lights = finder.find<minirt_light>("LIGHTS", sizeof(minirt_light), &blob.light_count, false);
     blob.images = finder.find<minirt_image>("IMAGES", sizeof(minirt_image), &blob.image_count, false);
+    blob.media = finder.find<minirt_medium>("MEDIA", sizeof(minirt_medium), &blob.medium_count, false);
     blob.texels = finder.find<uint16_t>("TEXELS", 8, &blob.texel_count, false);
     blob.kernels = finder.find<minirt_kernel>("KERNELS", sizeof(minirt_kernel), &blob.kernel_count, true);
     blob.spirv = finder.find<uint8_t>("SPIRV", 4, &blob.spirv_size, true);
@@ -673,12 +696,15 @@ inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
         return r.fail(MINIRT_ERROR_CORRUPT, "unknown integrator %llu", s.integrator);
     if (s.bvh_depth == 0 || s.bvh_depth > 64) return r.fail(MINIRT_ERROR_CORRUPT, "a hierarchy of depth %llu", s.bvh_depth);
     const minirt_scene_rows& rows = *b.rows;
-    if (firstNonFinite(&rows, 1, 0, 16) != 1)
+    if (firstNonFinite(&rows, 1, 0, 24) != 1)
         return r.fail(MINIRT_ERROR_CORRUPT, "the scene's rows hold a number that is not finite");
     if (rows.gridScale.x <= 0 || rows.gridScale.y <= 0 || rows.gridScale.z <= 0)
         return r.fail(MINIRT_ERROR_CORRUPT, "a grid of no size");
     if (rows.counts.x != b.light_count)
         return r.fail(MINIRT_ERROR_CORRUPT, "%llu lights in a section of %llu", rows.counts.x, b.light_count);
+    if (uint64_t(rows.counts.z) + 1 != (b.medium_count ? b.medium_count : 1))
+        return r.fail(MINIRT_ERROR_CORRUPT, "%llu volumes and %llu media", rows.counts.z, b.medium_count);
+    if (s.volume_capacity > 64) return r.fail(MINIRT_ERROR_CORRUPT, "lists of %llu volumes", s.volume_capacity);
     if (rows.counts.y != MINIRT_NONE && rows.counts.y >= b.image_count)
         return r.fail(MINIRT_ERROR_CORRUPT, "no background image %llu", rows.counts.y);
     return MINIRT_OK;
@@ -768,6 +794,12 @@ inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
         if (texels == 0 || image.extent.z > b.texel_count || texels > b.texel_count - image.extent.z || !isfinite(image.scale.x))
             return r.fail(MINIRT_ERROR_CORRUPT, "image %llu lies outside of the texels", i);
     }
+    for (uint64_t i = 0; i < b.medium_count; ++i) {
+        const minirt_medium& m = b.media[i];
+        if (firstNonFinite(&m, 1, 0, 20) != 1 || !(m.ior.x > 0 && m.ior.y > 0 && m.ior.z > 0 && m.ior.w > 0) ||
+            !(m.absorption.x >= 0 && m.absorption.y >= 0 && m.absorption.z >= 0))
+            return r.fail(MINIRT_ERROR_CORRUPT, "medium %llu is none", i);
+    }
     uint32_t bad = 0;
     for (uint64_t i = 0; i < b.texel_count * 4; ++i) bad |= (b.texels[i] & 0x7c00u) == 0x7c00u ? 1u : 0u;
     return bad ? r.fail(MINIRT_ERROR_CORRUPT, "a texel is not finite") : MINIRT_OK;
@@ -778,7 +810,7 @@ inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
         const minirt_kernel& k = b.kernels[i];
         if (k.spirv_offset > b.spirv_size || k.spirv_size > b.spirv_size - k.spirv_offset || k.spirv_size < 20 ||
             k.spirv_size % 4 || k.spirv_offset % 4 || k.name[sizeof k.name - 1] != 0 || k.bindings >> MINIRT_BINDING_COUNT ||
-            k.waits > 1)
+            k.waits > 64)
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu is malformed", i);
         uint32_t magic;
         memcpy(&magic, b.spirv + k.spirv_offset, sizeof magic);
@@ -891,6 +923,8 @@ struct minirt_scene {
     minirt_detail::Buffer buffers[MINIRT_BINDING_COUNT];  // those of the blob, then film, ray counts, state, counters of the job
     minirt_detail::Buffer filmReadBack;                   // where the film itself cannot be mapped
     minirt_detail::Buffer countsReadBack;
+    uint32_t mediumCount = 0;
+    minirt_medium* media = nullptr;
     uint32_t kernelCount = 0;
     minirt_kernel* kernels = nullptr;
     uint8_t* spirv = nullptr;
@@ -1475,6 +1509,7 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
         {MINIRT_BINDING_LIGHTS, b.lights, b.light_count * sizeof *b.lights},
         {MINIRT_BINDING_IMAGES, b.images, b.image_count * sizeof *b.images},
         {MINIRT_BINDING_TEXELS, b.texels, b.texel_count * 8},
+        {MINIRT_BINDING_MEDIA, b.media, b.medium_count * sizeof *b.media},
     };
     Buffer staging;
     minirt_result result = MINIRT_OK;
@@ -1665,8 +1700,19 @@ inline uint32_t findKernel(const minirt_scene* s, uint32_t integrator) {
 }
 
 /* >>implementation-job */
+/* True where a point in scene space lies in the bounds of a volume: rays from there find out first what they start in. */
+inline bool mayBeInVolume(const minirt_scene* s, const float* p) {
+    for (uint32_t i = 1; i < s->mediumCount; ++i) {
+        const minirt_vec4& lo = s->media[i].boundsMin;
+        const minirt_vec4& hi = s->media[i].boundsMax;
+        if (p[0] >= lo.x && p[1] >= lo.y && p[2] >= lo.z && p[0] <= hi.x && p[1] <= hi.y && p[2] <= hi.z) return true;
+    }
+    return false;
+}
+
 /* Camera basis for a pinhole at `camera` (world space) into the frame (scene space). */
-inline bool aimCamera(const minirt_scene_desc& scene, const minirt_camera& camera, minirt_frame& frame) {
+inline bool aimCamera(const minirt_scene* s, const minirt_camera& camera, minirt_frame& frame) {
+    const minirt_scene_desc& scene = s->desc;
     double forward[3];
     double right[3];
     double length2 = 0;
@@ -1693,6 +1739,7 @@ inline bool aimCamera(const minirt_scene_desc& scene, const minirt_camera& camer
     frame.right = {static_cast<float>(right[0] * halfWidth), static_cast<float>(right[1] * halfWidth),
                    static_cast<float>(right[2] * halfWidth), 0};
     frame.up = {upward[0], upward[1], upward[2], 0};
+    frame.sampling.y = scene.volume_capacity && mayBeInVolume(s, position) ? 1 : 0;
     const minirt_vec4* rows[] = {&frame.position, &frame.forward, &frame.right, &frame.up};
     for (const minirt_vec4* row : rows)
         if (!isfinite(row->x) || !isfinite(row->y) || !isfinite(row->z)) return false;
@@ -1728,11 +1775,18 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     return MINIRT_OK;
 }
 
+/* Segments that a pixel's list can hold. */
+inline uint32_t waitingRoom(const minirt_job* job) {
+    const uint32_t waits = job->scene->kernels[job->scene->activeKernel].waits;
+    return waits ? job->desc.max_depth + waits - 1 : 0;
+}
+
 /* Words of saved state a pixel; the layout is in shaders/common/suspend.glsl and the kernel. */
 inline uint32_t stateWords(const minirt_job* job) {
     const minirt_scene* s = job->scene;
-    const uint32_t waiting = s->kernels[s->activeKernel].waits ? job->desc.max_depth : 0;
-    return MINIRT_WALK_WORDS + MINIRT_TRAVERSAL_WORDS + s->desc.bvh_depth + waiting * MINIRT_SEGMENT_WORDS;
+    const uint32_t volumes = s->desc.volume_capacity;
+    return MINIRT_WALK_WORDS(volumes) + MINIRT_TRAVERSAL_WORDS + s->desc.bvh_depth +
+           waitingRoom(job) * MINIRT_SEGMENT_WORDS(volumes);
 }
 
 inline minirt_result ensureBuffer(minirt_scene* s, uint32_t binding, VkDeviceSize size, VkBufferUsageFlags usage) {
@@ -1762,7 +1816,7 @@ inline minirt_result allocateJobBuffers(minirt_job* job) {
 inline void setFrame(minirt_job* job) {
     const minirt_render_desc& d = job->desc;
     const minirt_region& region = d.region;
-    job->frame.size = {d.width, d.height, job->scene->kernels[job->scene->activeKernel].waits ? d.max_depth : 0, 0};
+    job->frame.size = {d.width, d.height, waitingRoom(job), 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
     job->frame.blocks = {0, (region.width + 7) / 8, 0, stateWords(job)};
     job->frame.sampling = {d.first_sample, 0, d.max_depth, 0};
@@ -1831,6 +1885,7 @@ inline uint32_t takeCounters(minirt_job* job) {
     job->stats.nan_pixels += counters->nan_pixels;
     job->stats.segment_overflow += counters->segment_overflow;
     job->stats.traversal_cap += counters->unfinished;
+    job->stats.volume_overflow += counters->volume_overflow;
     memset(counters, 0, sizeof *counters);
     return pending;
 }
@@ -1859,7 +1914,7 @@ inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     job->blockCount = ((region.width + 7) / 8) * ((region.height + 7) / 8);
     if (minirt_result r = allocateJobBuffers(job)) return r;
     setFrame(job);
-    if (!aimCamera(s->desc, job->camera, job->frame))
+    if (!aimCamera(s, job->camera, job->frame))
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "the camera's position, target, up or vfov do not make a view");
     writeDescriptors(s);
     s->blocksPerMs /= 8;  // this job's pixels may cost more than the last one's did
@@ -1956,20 +2011,29 @@ inline void destroyScene(minirt_scene* s) {
     for (Buffer& buffer : s->buffers) destroyBuffer(c, buffer);
     destroyBuffer(c, s->filmReadBack);
     destroyBuffer(c, s->countsReadBack);
+    hostRelease(c->allocator, s->media);
     hostRelease(c->allocator, s->kernels);
     hostRelease(c->allocator, s->spirv);
     hostDelete(c->allocator, s);
 }
 
+/* A copy of an array of the blob, for the host; NULL when out of memory. */
+template <typename T>
+T* copyArray(const minirt_allocator& allocator, const T* from, uint64_t count) {
+    const size_t bytes = static_cast<size_t>(count) * sizeof(T);
+    T* copy = static_cast<T*>(hostAllocate(allocator, bytes ? bytes : sizeof(T)));
+    if (copy && bytes) memcpy(copy, from, bytes);
+    return copy;
+}
+
 inline minirt_result copyKernels(minirt_scene* s, const minirt_blob& blob) {
     const minirt_allocator& allocator = s->context->allocator;
-    s->kernels =
-        static_cast<minirt_kernel*>(hostAllocate(allocator, static_cast<size_t>(blob.kernel_count) * sizeof(minirt_kernel)));
-    s->spirv = static_cast<uint8_t*>(hostAllocate(allocator, static_cast<size_t>(blob.spirv_size)));
-    if (!s->kernels || !s->spirv) return fail(s->context, MINIRT_ERROR_OUT_OF_MEMORY, "out of host memory");
-    memcpy(s->kernels, blob.kernels, static_cast<size_t>(blob.kernel_count) * sizeof(minirt_kernel));
-    memcpy(s->spirv, blob.spirv, static_cast<size_t>(blob.spirv_size));
+    s->kernels = copyArray(allocator, blob.kernels, blob.kernel_count);
+    s->spirv = copyArray(allocator, blob.spirv, blob.spirv_size);
+    s->media = copyArray(allocator, blob.media, blob.medium_count);
+    if (!s->kernels || !s->spirv || !s->media) return fail(s->context, MINIRT_ERROR_OUT_OF_MEMORY, "out of host memory");
     s->kernelCount = static_cast<uint32_t>(blob.kernel_count);
+    s->mediumCount = static_cast<uint32_t>(blob.medium_count);
     return MINIRT_OK;
 }
 
@@ -2325,7 +2389,7 @@ minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands, VkImage i
     minirt_context* c = job->scene->context;
     if (c->lost) return MINIRT_ERROR_DEVICE_LOST;
     const minirt_frame before = job->frame;
-    if (camera && !aimCamera(job->scene->desc, *camera, job->frame)) {
+    if (camera && !aimCamera(job->scene, *camera, job->frame)) {
         job->frame = before;
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "the camera's position, target, up or vfov do not make a view");
     }

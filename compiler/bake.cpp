@@ -20,6 +20,13 @@ void printEffects(const EffectSet& effects) {
     }
 }
 
+void printVolumes(const Geometry& geometry, const Volumes& volumes) {
+    for (const Displacement& pair : volumes.displacements) {
+        std::cout << geometry.bodies[pair.above].name << " displaces " << geometry.bodies[pair.below].name << ": " << pair.reason
+                  << "\n";
+    }
+}
+
 void saveGlsl(const std::string& dir, const std::vector<Kernel>& kernels) {
     std::filesystem::create_directories(dir);
     for (const Kernel& kernel : kernels)
@@ -82,15 +89,19 @@ int bake(const BakeOptions& options) {
     const Geometry geometry = flatten(scene, diagnostics);
     const Bvh bvh = buildBvh(geometry, options.threads);
     const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
-    EffectSet effects = analyseEffects(scene, geometry, nodes.layout == MINIRT_NODES_FLOAT);
+    const Volumes volumes = analyseVolumes(scene, geometry, diagnostics);
+    EffectSet effects = analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT);
     if (options.allEffects) includeAll(effects);
     const std::vector<Kernel> kernels = {compileKernel("whitted", effects)};
-    const std::vector<uint8_t> blob = assembleBlob(scene, geometry, bvh, nodes, effects, kernels);
+    const std::vector<uint8_t> blob = assembleBlob({scene, geometry, bvh, nodes, volumes, effects, kernels});
 
     requireValid(options.scene, blob);
 
     for (const std::string& warning : diagnostics.warnings) std::cerr << warning << "\n";
-    if (options.explain) printEffects(effects);
+    if (options.explain) {
+        printEffects(effects);
+        printVolumes(geometry, volumes);
+    }
     if (!options.saveGlslDir.empty()) saveGlsl(options.saveGlslDir, kernels);
     writeFile(options.output, blob.data(), blob.size());
     const double totalMs = nowMs() - start;

@@ -77,7 +77,8 @@ minirt_material encodeMaterial(const Material& m, const Geometry& geometry, cons
     out.transmit = vec4(m.transmit);
     out.emission = vec4(m.emission);
     out.checker = vec4(checkerOffset(geometry.origin, m.checkerScale), m.checkerScale);
-    out.options = {(m.fresnel ? MINIRT_MATERIAL_FRESNEL : 0u) | (m.checker ? MINIRT_MATERIAL_CHECKER : 0u),
+    out.options = {(m.fresnel ? MINIRT_MATERIAL_FRESNEL : 0u) | (m.checker ? MINIRT_MATERIAL_CHECKER : 0u) |
+                       (m.thin ? MINIRT_MATERIAL_THIN : 0u) | (m.clearShadows ? MINIRT_MATERIAL_CLEAR_SHADOWS : 0u),
                    images.texture(m.diffuseTexture), m.checkerA, m.checkerB};
     return out;
 }
@@ -95,19 +96,48 @@ minirt_light encodeLight(const Light& light, const Geometry& geometry) {
     return out;
 }
 
-std::vector<minirt_vec4> encodePrimitives(const Geometry& geometry, const Bvh& bvh, bool withCorners) {
+minirt_medium encodeMedium(const Material& m) {
+    minirt_medium out = {};
+    out.absorption = vec4(m.medium.absorption, m.medium.inscatter);
+    out.ior = {m.ior, m.ior, m.ior, m.ior};
+    out.iorCurve = {m.ior, 0, 0, 0};
+    return out;
+}
+
+/// The surrounding, then what fills each volume.
+std::vector<minirt_medium> encodeMedia(const Scene& scene, const Geometry& geometry, const Volumes& volumes) {
+    std::vector<minirt_medium> media = {encodeMedium(Material{})};
+    for (uint32_t v = 0; v < volumes.count; ++v)
+        media.push_back(encodeMedium(scene.materials[geometry.bodies[volumes.order[v]].material]));
+    const std::vector<Bounds> bounds = bodyBounds(geometry);
+    for (uint32_t v = 0; v < volumes.count; ++v) {
+        media[v + 1].boundsMin = vec4(bounds[volumes.order[v]].min);
+        media[v + 1].boundsMax = vec4(bounds[volumes.order[v]].max);
+    }
+    return media;
+}
+
+/// The number of each body in the blob.
+std::vector<uint32_t> numberBodies(const Volumes& volumes) {
+    std::vector<uint32_t> numbers(volumes.order.size());
+    for (uint32_t i = 0; i < numbers.size(); ++i) numbers[volumes.order[i]] = i;
+    return numbers;
+}
+
+std::vector<minirt_vec4> encodePrimitives(const Geometry& geometry, const Bvh& bvh, const Volumes& volumes, bool withCorners) {
+    const std::vector<uint32_t> bodyNumbers = numberBodies(volumes);
     std::vector<minirt_vec4> rows;
     rows.reserve(bvh.order.size() * 3);
     for (uint32_t index : bvh.order) {
         const Primitive& primitive = geometry.primitives[index];
         rows.push_back(vec4(primitive.p[0], asFloat(primitive.material | (primitive.isSphere ? MINIRT_PRIMITIVE_SPHERE : 0u))));
-        rows.push_back(vec4(primitive.p[1], asFloat(primitive.object)));
+        rows.push_back(vec4(primitive.p[1], asFloat(bodyNumbers[primitive.body])));
         rows.push_back(vec4(primitive.p[2], asFloat(withCorners ? primitive.corners : kNone)));
     }
     return rows;
 }
 
-minirt_scene_rows encodeRows(const Scene& scene, const EncodedNodes& nodes, const ImagePlan& images) {
+minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const EncodedNodes& nodes, const Volumes& volumes, const ImagePlan& images) {
     minirt_scene_rows rows = {};
     rows.gridOrigin = vec4(nodes.gridOrigin);
     rows.gridScale = vec4(nodes.gridScale);
@@ -115,7 +145,9 @@ minirt_scene_rows encodeRows(const Scene& scene, const EncodedNodes& nodes, cons
     const bool image = scene.background.image != kNone;
     rows.background =
         vec4(image ? glm::vec3(scene.background.strength) : scene.background.color, scene.background.rotation / 360.0f);
-    rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.background, 0, 0};
+    rows.boundsMin = vec4(geometry.boundsMin);
+    rows.boundsMax = vec4(geometry.boundsMax);
+    rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.background, volumes.count, 0};
     return rows;
 }
 
@@ -123,7 +155,9 @@ void copy(double (&to)[3], const glm::dvec3& from) {
     std::copy(&from.x, &from.x + 3, to);
 }
 
-minirt_scene_desc encodeScene(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes) {
+minirt_scene_desc encodeScene(const BakedScene& baked) {
+    const Scene& scene = baked.scene;
+    const Geometry& geometry = baked.geometry;
     minirt_scene_desc desc = {};
     copy(desc.origin, geometry.origin);
     copy(desc.bounds_min, geometry.boundsMin);
@@ -137,20 +171,25 @@ minirt_scene_desc encodeScene(const Scene& scene, const Geometry& geometry, cons
     desc.samples = scene.render.spp;
     desc.max_depth = scene.render.maxDepth;
     desc.integrator = static_cast<uint32_t>(scene.render.integrator) + MINIRT_INTEGRATOR_WHITTED;
-    desc.node_layout = nodes.layout;
-    desc.bvh_depth = bvh.depth;
+    desc.node_layout = baked.nodes.layout;
+    desc.bvh_depth = baked.bvh.depth;
     desc.throughput_cutoff = kThroughputCutoff;
+    desc.volume_capacity = baked.effects.has(Effect::nesting) ? baked.effects.volumeCapacity : 0;
     return desc;
 }
 
-std::string explain(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes,
-                    const EffectSet& effects) {
+std::string explain(const BakedScene& baked) {
+    const auto& [scene, geometry, bvh, nodes, volumes, effects, kernels] = baked;
     nlohmann::ordered_json json;
     for (size_t i = 0; i < kEffectCount; ++i) {
         json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included},
                                                                     {"reason", effects.choices[i].reason}};
     }
-    json["objects"] = geometry.objectNames;
+    for (uint32_t body : volumes.order) json["objects"].push_back(geometry.bodies[body].name);
+    for (const Displacement& pair : volumes.displacements) {
+        json["nesting"].push_back(
+            {{"above", geometry.bodies[pair.above].name}, {"below", geometry.bodies[pair.below].name}, {"reason", pair.reason}});
+    }
     for (const Material& material : scene.materials) json["materials"].push_back(material.name);
     json["bvh"] = {{"nodes", bvh.nodes.size()},
                    {"leaves", bvh.leaves},
@@ -229,7 +268,7 @@ void addKernels(BlobWriter& writer, const std::vector<Kernel>& kernels) {
         entry.spirv_offset = words.size() * sizeof(uint32_t);
         entry.spirv_size = kernel.spirv.size() * sizeof(uint32_t);
         entry.bindings = kernel.bindings;
-        entry.waits = kernel.waits ? 1 : 0;
+        entry.waits = kernel.waits;
         entries.push_back(entry);
         words.insert(words.end(), kernel.spirv.begin(), kernel.spirv.end());
     }
@@ -261,28 +300,29 @@ void addCorners(BlobWriter& writer, const Geometry& geometry, const EffectSet& e
 
 }  // namespace
 
-std::vector<uint8_t> assembleBlob(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes,
-                                  const EffectSet& effects, const std::vector<Kernel>& kernels) {
+std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
+    const auto& [scene, geometry, bvh, nodes, volumes, effects, kernels] = baked;
     const ImagePlan images = planImages(scene, effects);
     std::vector<minirt_material> materials;
     for (const Material& material : scene.materials) materials.push_back(encodeMaterial(material, geometry, images));
     std::vector<minirt_light> lights;
     for (const Light& light : scene.lights) lights.push_back(encodeLight(light, geometry));
     const bool withCorners = !geometry.corners.empty() && (effects.has(Effect::smoothNormals) || effects.has(Effect::textures));
-    const minirt_scene_desc desc = encodeScene(scene, geometry, bvh, nodes);
-    const minirt_scene_rows rows = encodeRows(scene, nodes, images);
+    const minirt_scene_desc desc = encodeScene(baked);
+    const minirt_scene_rows rows = encodeRows(scene, geometry, nodes, volumes, images);
 
     BlobWriter writer;
     writer.add("SCENE", &desc, sizeof desc);
     writer.add("ROWS", &rows, sizeof rows);
     writer.add("NODES", nodes.words);
-    writer.add("PRIMS", encodePrimitives(geometry, bvh, withCorners));
+    writer.add("PRIMS", encodePrimitives(geometry, bvh, volumes, withCorners));
     addCorners(writer, geometry, effects);
     writer.add("MATERIAL", materials);
     writer.add("LIGHTS", lights);
+    if (volumes.count > 0) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
     addImages(writer, scene, images);
     addKernels(writer, kernels);
-    const std::string text = explain(scene, geometry, bvh, nodes, effects);
+    const std::string text = explain(baked);
     writer.add("EXPLAIN", text.data(), text.size());
     return writer.finish();
 }

@@ -32,9 +32,19 @@ enum class LayoutChoice { automatic, quantised, floating };
 /// Automatic: 16-bit boxes unless they cost a ray over a tenth more work than exact ones.
 EncodedNodes encodeNodes(const Bvh& bvh, const Geometry& geometry, LayoutChoice choice);
 
+/// What the stages before made of a scene.
+struct BakedScene {
+    const Scene& scene;
+    const Geometry& geometry;
+    const Bvh& bvh;
+    const EncodedNodes& nodes;
+    const Volumes& volumes;
+    const EffectSet& effects;
+    const std::vector<Kernel>& kernels;
+};
+
 /// All sections with header, table and checksums, ready for a file. The same input gives the same bytes.
-std::vector<uint8_t> assembleBlob(const Scene& scene, const Geometry& geometry, const Bvh& bvh, const EncodedNodes& nodes,
-                                  const EffectSet& effects, const std::vector<Kernel>& kernels);
+std::vector<uint8_t> assembleBlob(const BakedScene& baked);
 
 /// Writes a file whole or not at all: a temporary file beside it, synced, renamed. Throws Error.
 void writeFile(const std::filesystem::path& path, const void* data, size_t size);

@@ -1,5 +1,6 @@
 #include "effects.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace minirtc {
@@ -18,6 +19,13 @@ constexpr std::array<EffectInfo, kEffectCount> kEffects = {{
     {"fresnel", "EFFECT_FRESNEL", "no material in use splits by Fresnel"},
     {"emission", "EFFECT_EMISSION", "no material in use shines"},
     {"background_image", "EFFECT_BACKGROUND_IMAGE", "the background is a constant"},
+    {"thin", "EFFECT_THIN", "no material in use is thin-walled"},
+    {"nesting", "EFFECT_NESTING", "no ray needs to know which volumes it is in"},
+    {"parity", "EFFECT_PARITY", "volumes nest by their order, or not at all"},
+    {"self_overlap", "EFFECT_SELF_OVERLAP", "no volume overlaps itself"},
+    {"absorption", "EFFECT_ABSORPTION", "every medium is clear"},
+    {"inscatter", "EFFECT_INSCATTER", "no medium has a colour of its own"},
+    {"transmissive_shadows", "EFFECT_TRANSMISSIVE_SHADOWS", "no light meets what transmits, or shadows are opaque"},
     {"float_nodes", "EFFECT_FLOAT_NODES", "16-bit boxes fit this scene"},
 }};
 
@@ -48,6 +56,23 @@ void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const s
     callFor(effects, Effect::refraction, nonZero(material.transmit), reason);
     callFor(effects, Effect::fresnel, material.fresnel && (nonZero(material.reflect) || nonZero(material.transmit)), reason);
     callFor(effects, Effect::emission, nonZero(material.emission), reason);
+    const bool transmits = nonZero(material.transmit);
+    callFor(effects, Effect::thin, transmits && material.thin, reason);
+    callFor(effects, Effect::absorption, boundsVolume(material) && nonZero(material.medium.absorption), reason);
+    const bool glows = nonZero(material.medium.absorption) && material.medium.inscatter > 0;
+    callFor(effects, Effect::inscatter, boundsVolume(material) && glows, reason);
+    callFor(effects, Effect::transmissiveShadows, lit && transmits && material.clearShadows, reason);
+}
+
+/// A list of the volumes that a ray is in is needed where volumes share space, or where what is in a volume must know of its medium.
+void addVolumes(EffectSet& effects, const Scene& scene, const Volumes& volumes) {
+    const bool mediumMatters = effects.has(Effect::absorption) || effects.has(Effect::fresnel);
+    callFor(effects, Effect::nesting, !volumes.overlap.empty(), volumes.overlap);
+    callFor(effects, Effect::nesting, !volumes.content.empty() && mediumMatters, volumes.content);
+    const bool nests = effects.has(Effect::nesting);
+    callFor(effects, Effect::selfOverlap, nests && !volumes.selfOverlap.empty(), volumes.selfOverlap);
+    callFor(effects, Effect::parity, nests && scene.nesting == Nesting::parity, "\"nesting\": \"parity\"");
+    effects.volumeCapacity = std::max(volumes.capacity, 1u);
 }
 
 }  // namespace
@@ -56,12 +81,12 @@ const EffectInfo& effectInfo(Effect effect) {
     return kEffects[static_cast<size_t>(effect)];
 }
 
-EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, bool floatNodes) {
+EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes) {
     EffectSet effects;
     for (size_t i = 0; i < kEffectCount; ++i) effects.choices[i].reason = kEffects[i].absent;
     std::set<uint32_t> seen;
     for (const Primitive& primitive : geometry.primitives) {
-        const std::string& object = geometry.objectNames[primitive.object];
+        const std::string& object = geometry.bodies[primitive.body].name;
         callFor(effects, Effect::spheres, primitive.isSphere, object);
         if (seen.insert(primitive.material).second) addMaterial(effects, scene, primitive.material, object);
     }
@@ -73,13 +98,16 @@ EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, bool floa
     if (scene.background.image != kNone) {
         callFor(effects, Effect::backgroundImage, true, "background '" + scene.images[scene.background.image].name + "'");
     }
+    addVolumes(effects, scene, volumes);
     callFor(effects, Effect::floatNodes, floatNodes, "16-bit boxes would lose too much on this scene");
     return effects;
 }
 
 void includeAll(EffectSet& effects) {
     for (size_t i = 0; i < kEffectCount; ++i) {
-        if (static_cast<Effect>(i) == Effect::floatNodes) continue;  // a layout, not a cost that a scene could avoid
+        // A layout or a method, not a cost that a scene could avoid.
+        const auto effect = static_cast<Effect>(i);
+        if (effect == Effect::floatNodes || effect == Effect::parity || effect == Effect::selfOverlap) continue;
         callFor(effects, static_cast<Effect>(i), true, "asked for by --all-effects");
     }
 }

@@ -6,6 +6,7 @@
 
 #include "geometry.hpp"
 #include "scene.hpp"
+#include "volumes.hpp"
 
 namespace minirtc {
 
@@ -22,6 +23,13 @@ enum class Effect {
     fresnel,
     emission,
     backgroundImage,
+    thin,
+    nesting,
+    parity,
+    selfOverlap,
+    absorption,
+    inscatter,
+    transmissiveShadows,
     floatNodes,
     count
 };
@@ -44,6 +52,7 @@ struct EffectChoice {
 
 struct EffectSet {
     std::array<EffectChoice, kEffectCount> choices;
+    uint32_t volumeCapacity = 1;  // entries of a ray's list of volumes, where nesting is in
     bool has(Effect effect) const { return choices[static_cast<size_t>(effect)].included; }
     EffectChoice& operator[](Effect effect) { return choices[static_cast<size_t>(effect)]; }
     const EffectChoice& operator[](Effect effect) const { return choices[static_cast<size_t>(effect)]; }
@@ -51,8 +60,8 @@ struct EffectSet {
     bool splits() const { return has(Effect::refraction); }
 };
 
-/// Decides each effect from the scene: the materials that objects use, the lights, the background, the geometry.
-EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, bool floatNodes);
+/// Decides each effect from the scene: the materials that objects use, the lights, the background, the geometry, the volumes.
+EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes);
 
 /// Every effect, whether called for or not.
 void includeAll(EffectSet& effects);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <map>
 
 #include "vertex_normals.hpp"
 
@@ -98,7 +99,7 @@ glm::vec3 toFloat(const glm::dvec3& v) {
     return f;
 }
 
-struct Bounds {
+struct WorldBounds {
     glm::dvec3 min{DBL_MAX}, max{-DBL_MAX};
     void grow(const glm::dvec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
 };
@@ -164,7 +165,8 @@ private:
         lostInRounding_ = false, dropped_ = 0, seen_ = 0;
         for (size_t i = 0; i < object.instances.size(); ++i) {
             const bool several = object.instances.size() > 1;
-            out_.objectNames.push_back(object.name + (several ? "[" + std::to_string(i) + "]" : ""));
+            instanceName_ = object.name + (several ? "[" + std::to_string(i) + "]" : "");
+            instanceBodies_.clear();
             if (object.shape == ShapeType::mesh) addMesh(object, Placement(object.instances[i]));
         }
         if (object.shape == ShapeType::sphere) addSphere(object);
@@ -174,7 +176,17 @@ private:
 
     glm::vec3 recentre(const glm::dvec3& world) const { return toFloat(world - out_.origin); }
 
-    uint32_t objectIndex() const { return static_cast<uint32_t>(out_.objectNames.size() - 1); }
+    /// The body of the instance at hand that faces of this material belong to.
+    uint32_t bodyOf(const Object& object, uint32_t material) {
+        const uint32_t bounded = boundsVolume(scene_.materials[material]) ? material : kNone;
+        const auto [entry, isNew] = instanceBodies_.emplace(bounded, static_cast<uint32_t>(out_.bodies.size()));
+        if (isNew) {
+            const bool ownMaterials = object.material == kNone && bounded != kNone;
+            const std::string suffix = ownMaterials ? " (" + scene_.materials[material].name + ")" : "";
+            out_.bodies.push_back({instanceName_ + suffix, object.location, bounded, object.priority});
+        }
+        return entry->second;
+    }
 
     bool isTextured(uint32_t index) const {
         if (index == kNone) return false;
@@ -188,7 +200,7 @@ private:
         const float radius = static_cast<float>(object.sphere.radius);
         sphere.p = {recentre(object.sphere.center), glm::vec3(radius, 0, 0), glm::vec3(0)};
         sphere.material = object.material;
-        sphere.object = objectIndex();
+        sphere.body = bodyOf(object, object.material);
         noteSize(radius, largestCoordinate({sphere.p[0], sphere.p[0], sphere.p[0]}));
         out_.primitives.push_back(sphere);
     }
@@ -200,7 +212,7 @@ private:
         const glm::vec2 uv[4] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // row 0 of a texture is at the end of v
         const glm::dvec3 flat(0);
         for (const auto& [a, b, c] : {std::array<int, 3>{0, 1, 2}, std::array<int, 3>{0, 2, 3}})
-            addTriangle({p[a], p[b], p[c]}, {flat, flat, flat}, {uv[a], uv[b], uv[c]}, object.material);
+            addTriangle({p[a], p[b], p[c]}, {flat, flat, flat}, {uv[a], uv[b], uv[c]}, object, object.material);
     }
 
     void addMesh(const Object& object, const Placement& placement) {
@@ -230,7 +242,7 @@ private:
                 if (average && normals[i] == glm::dvec3(0))
                     normals[i] = averaged.at(corner.position) * (placement.mirrored ? -1.0 : 1.0);
             }
-            addTriangle(p, normals, uvs, object.material != kNone ? object.material : mesh.materials[face.material]);
+            addTriangle(p, normals, uvs, object, object.material != kNone ? object.material : mesh.materials[face.material]);
         }
     }
 
@@ -243,7 +255,7 @@ private:
 
     /// A zero normal stands for the geometric one.
     void addTriangle(const std::array<glm::vec3, 3>& p, std::array<glm::dvec3, 3> normals, const std::array<glm::vec2, 3>& uvs,
-                     uint32_t material) {
+                     const Object& object, uint32_t material) {
         ++seen_;
         const glm::dvec3 area = areaVector(p);
         if (area == glm::dvec3(0)) {
@@ -257,7 +269,7 @@ private:
         Primitive triangle;
         triangle.p = p;
         triangle.material = material;
-        triangle.object = objectIndex();
+        triangle.body = bodyOf(object, material);
         if (bent || isTextured(material)) {
             triangle.corners = static_cast<uint32_t>(out_.corners.size());
             out_.corners.push_back({{glm::vec3(normals[0]), glm::vec3(normals[1]), glm::vec3(normals[2])}, uvs});
@@ -297,24 +309,20 @@ private:
     }
 
     void measureResult() {
-        glm::vec3 lo(FLT_MAX), hi(-FLT_MAX);
-        for (const Primitive& primitive : out_.primitives) {
-            if (primitive.isSphere) {
-                lo = glm::min(lo, primitive.p[0] - primitive.p[1].x), hi = glm::max(hi, primitive.p[0] + primitive.p[1].x);
-            } else {
-                for (const glm::vec3& p : primitive.p) lo = glm::min(lo, p), hi = glm::max(hi, p);
-            }
-        }
-        out_.boundsMin = lo, out_.boundsMax = hi;
+        Bounds bounds;
+        for (const Primitive& primitive : out_.primitives) bounds.grow(primitive);
+        out_.boundsMin = bounds.min, out_.boundsMax = bounds.max;
     }
 
     const Scene& scene_;
     Diagnostics& diagnostics_;
     Geometry out_;
-    Bounds bounds_;
+    WorldBounds bounds_;
     size_t primitiveCount_ = 0;
     std::vector<glm::dvec3> world_;  // of the mesh instance at hand
     std::vector<glm::vec3> local_;   // the same in float, relative to the origin
+    std::string instanceName_;       // of the instance at hand
+    std::map<uint32_t, uint32_t> instanceBodies_;  // by the material that they bound
     // Of the object at hand:
     bool lostInRounding_ = false;
     uint64_t dropped_ = 0;
@@ -322,6 +330,20 @@ private:
 };
 
 }  // namespace
+
+void Bounds::grow(const Primitive& primitive) {
+    if (primitive.isSphere) {
+        min = glm::min(min, primitive.p[0] - primitive.p[1].x), max = glm::max(max, primitive.p[0] + primitive.p[1].x);
+        return;
+    }
+    for (const glm::vec3& p : primitive.p) min = glm::min(min, p), max = glm::max(max, p);
+}
+
+std::vector<Bounds> bodyBounds(const Geometry& geometry) {
+    std::vector<Bounds> bounds(geometry.bodies.size());
+    for (const Primitive& primitive : geometry.primitives) bounds[primitive.body].grow(primitive);
+    return bounds;
+}
 
 Geometry flatten(const Scene& scene, Diagnostics& diagnostics) {
     return Flattener(scene, diagnostics).run();

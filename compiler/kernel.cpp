@@ -24,6 +24,7 @@ const std::vector<std::string> kParts = {
     "common/language.glsl",        "common/neighbours.glsl",
     "common/numerics.glsl",        "common/pixel.glsl",
     "common/patterns.glsl",        "bsdf/optics.glsl",
+    "bsdf/medium.glsl",            "media/volumes.glsl",
     "traverse/box.glsl",           "traverse/triangle.glsl",
     "traverse/sphere.glsl",        "layout",
     "common/frame.glsl",           "common/fetch.glsl",
@@ -32,12 +33,15 @@ const std::vector<std::string> kParts = {
     "effects/images.glsl",         "effects/background.glsl",
     "effects/smooth_normals.glsl", "effects/textures.glsl",
     "common/materials.glsl",       "effects/checker.glsl",
+    "effects/nesting.glsl",        "effects/media.glsl",
     "common/surface.glsl",         "effects/lights.glsl",
-    "effects/scatter.glsl",        "effects/emission.glsl",
+    "effects/scatter.glsl",        "effects/shadows.glsl",
+    "effects/emission.glsl",
 };
 
 const std::string kHeader = R"(#version 460
 #extension GL_GOOGLE_cpp_style_line_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MINIRT_UINT uint
 #define minirt_vec4 vec4
 #define minirt_uvec4 uvec4
@@ -95,6 +99,8 @@ std::vector<uint32_t> optimise(const std::string& name, const std::vector<uint32
     spvtools::Optimizer optimizer(kToolsEnvironment);
     optimizer.SetMessageConsumer(consume);
     optimizer.RegisterPerformancePasses();
+    optimizer.RegisterPass(spvtools::CreateLoopUnrollPass(true));  // loops marked so; drivers that count loops do not count these
+    optimizer.RegisterPerformancePasses();
     optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass());
     std::vector<uint32_t> optimised;
     if (!optimizer.Run(spirv.data(), spirv.size(), &optimised)) failInternally(name, "optimise", log);
@@ -112,6 +118,7 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
         const auto effect = static_cast<Effect>(i);
         if (effects.has(effect)) source += std::string("#define ") + effectInfo(effect).define + "\n";
     }
+    source += "#define VOLUME_CAPACITY " + std::to_string(effects.volumeCapacity) + "\n";
     std::vector<std::string> parts = kParts;
     parts.push_back("kernels/" + name + ".comp");
     for (const std::string& part : parts) source += "#line 1 \"" + part + "\"\n" + shaderLibrary().at(part) + "\n";
@@ -125,7 +132,7 @@ Kernel compileKernel(const std::string& name, const EffectSet& effects) {
     Compiled compiled = compileGlsl(name, kernel.glsl);
     kernel.bindings = compiled.bindings;
     kernel.spirv = optimise(name, compiled.spirv);
-    kernel.waits = effects.splits();
+    kernel.waits = effects.splits() ? 1 : 0;
     return kernel;
 }
 

@@ -13,7 +13,7 @@ struct Kernel {
     std::string glsl;             // the whole source, as handed to glslang
     std::vector<uint32_t> spirv;  // optimised and validated
     uint32_t bindings = 0;        // bit b: binding b is used
-    bool waits = false;           // needs room for waiting segments
+    uint32_t waits = 0;           // minirt_kernel::waits
 };
 
 /// The GLSL of a kernel: the files of the shader library that it consists of, behind the defines of its effects.

@@ -121,6 +121,7 @@ Material toMaterial(const MtlMaterial& mtl, Scene& scene, Diagnostics& diagnosti
     material.transmit = (filter == glm::vec3(0) ? glm::vec3(1) : filter) * (1 - a);
     material.fresnel = !pbr && (m.illum == 5 || m.illum == 7);
     material.ior = m.ior >= FLT_MIN ? static_cast<float>(m.ior) : 1.0f;
+    material.thin = material.ior == 1.0f;  // bends nothing: a way to write how much of a sheet is there
     material.emission = glm::vec3(toVector(m.emission));
     if (textured) addTexture(mtl, material, scene, diagnostics);
     return material;

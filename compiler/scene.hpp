@@ -53,6 +53,12 @@ struct Light {
     bool inverseSquare = true;       // false: "falloff":"none", the seeds' lights
 };
 
+/// The inside of an object that transmits.
+struct Medium {
+    glm::vec3 absorption{0};  // sigma in 1/m; light keeps exp(-sigma * d) of itself over a distance d
+    float inscatter = 0;      // 0 to 1: share of the light taken away that comes back as the medium's own
+};
+
 /// What light does at a surface, in the weights that the Whitted kernel uses. `phong`, `pbr` and .mtl materials all become this.
 struct Material {
     std::string name;
@@ -63,6 +69,9 @@ struct Material {
     glm::vec3 transmit{0};  // weight of the refracted ray
     float ior = 1.0f;
     bool fresnel = false;  // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
+    bool thin = false;     // a sheet of glass: both of its sides in one surface, nothing inside
+    Medium medium;         // what a closed object of this material is filled with
+    bool clearShadows = true;  // shadow rays pass what transmits, tinted
     glm::vec3 emission{0};
     uint32_t diffuseTexture = kNone;  // index into Scene::images; multiplies `diffuse`
     bool checker = false;             // a checker of the materials `checkerA` and `checkerB`; the rest is unused
@@ -125,7 +134,15 @@ struct Object {
     uint32_t material = kNone;                                     // index into Scene::materials; kNone: the mesh's own .mtl
     std::vector<Transform> instances = std::vector<Transform>(1);  // each instance becomes a copy in the blob
     std::optional<bool> smooth;                                    // absent: smooth exactly where the OBJ gives normals
+    int priority = 0;                                              // of two volumes that overlap, the higher one displaces the other
 };
+
+/// How volumes that overlap share space: by one order for every ray, or by the order in which each ray meets them (Ray Tracing Gems
+/// ch. 11).
+enum class Nesting { ordered, parity };
+
+/// Whether shadow rays pass through what transmits: all of it, none of it, or physical glass only.
+enum class Shadows { byModel, transmissive, opaque };
 
 enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2 };
 
@@ -135,6 +152,7 @@ struct RenderDefaults {
     uint32_t spp = 1;
     uint32_t width = 1024;
     uint32_t height = 768;
+    Shadows shadows = Shadows::byModel;
 };
 
 struct Scene {
@@ -146,8 +164,12 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Object> objects;
+    Nesting nesting = Nesting::ordered;
     RenderDefaults render;
 };
+
+/// True where faces of this material bound a volume: light goes in and comes out.
+bool boundsVolume(const Material& material);
 
 /// Parses and checks a scene file and all that it names (OBJ, MTL, images). Throws Error with file, line, column and what to do.
 Scene loadScene(const std::filesystem::path& path, Diagnostics& diagnostics);

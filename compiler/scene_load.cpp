@@ -80,7 +80,8 @@ RenderDefaults readRender(SceneFile& file, const JsonValue& value) {
                             {"integrator", "integrators", "maxDepth", "spp", "size", "shadows", "dispersionMode"});
     RenderDefaults render;
     object.word("integrator", "whitted", {"whitted"}, {"path", "wavefront"});
-    object.word("shadows", "opaque", {"opaque"}, {"transmissive"});
+    const std::string shadows = object.word("shadows", "", {"transmissive", "opaque"});
+    if (!shadows.empty()) render.shadows = shadows == "opaque" ? Shadows::opaque : Shadows::transmissive;
     object.word("dispersionMode", "rgb", {"rgb", "spectral"});
     if (object.has("dispersionMode")) object.warnIgnored("dispersionMode", "all wavelengths refract by 'ior'");
     if (object.has("integrators")) object.warnIgnored("integrators", "there is one integrator");
@@ -215,8 +216,7 @@ Object readObject(SceneFile& file, const JsonValue& value, const Scene& scene, P
     if (const JsonValue* priority = value.find("priority")) {
         const double number = readNumber(file, *priority, "priority", {-1000, 1000});
         if (number != std::floor(number)) throw Error(file.at(*priority), "'priority' is not whole", "give a whole number");
-        if (number != 0 && file.ignoredKeys.insert("priority").second)
-            file.diagnostics.warn(file.at(*priority), "'priority' has no effect in this version", "volumes do not nest");
+        object.priority = static_cast<int>(number);
     }
     return object;
 }
@@ -265,10 +265,11 @@ Scene loadScene(const std::filesystem::path& path, Diagnostics& diagnostics) {
         for (const JsonValue& light : lights->items) scene.lights.push_back(readLight(file, light));
     }
     if (root.has("materials")) readMaterials(file, *root.find("materials"), scene);
-    root.word("nesting", "ordered", {"ordered", "parity"});
-    if (root.has("nesting")) root.warnIgnored("nesting", "volumes do not nest");
+    scene.nesting = root.word("nesting", "ordered", {"ordered", "parity"}) == "parity" ? Nesting::parity : Nesting::ordered;
     if (root.has("render")) scene.render = readRender(file, *root.find("render"));
     readObjects(file, root, scene);
+    if (scene.render.shadows != Shadows::byModel)
+        for (Material& material : scene.materials) material.clearShadows = scene.render.shadows == Shadows::transmissive;
     warnWhereBlack(file, scene);
     return scene;
 }

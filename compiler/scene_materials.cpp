@@ -1,5 +1,7 @@
 #include "scene_materials.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 
 #include "text_file.hpp"
@@ -8,7 +10,7 @@ namespace minirtc {
 namespace {
 
 const std::vector<std::string> kPhongKeys = {"model", "diffuse",   "specular", "reflect", "refract",
-                                             "color", "shininess", "ior",      "fresnel"};
+                                             "color", "shininess", "ior",      "fresnel", "thin"};
 const std::vector<std::string> kPbrKeys = {
     "model", "baseColor",    "metallic", "roughness",        "normalTexture",       "emissive",  "alphaMode",  "alphaCutoff",
     "thin",  "transmission", "ior",      "attenuationColor", "attenuationDistance", "inscatter", "dispersion", "glass"};
@@ -29,6 +31,8 @@ Material readPhong(SceneFile& file, const JsonValue& value, const std::string& w
     const bool shares = material.fresnel && refract > 0;
     material.reflect = glm::vec3(shares ? reflect + refract : reflect);
     material.transmit = glm::vec3(shares ? reflect + refract : refract);
+    material.thin = object.boolean("thin", false);
+    material.clearShadows = false;  // the shadows of the model are hard
     return material;
 }
 
@@ -38,7 +42,6 @@ void rejectUnsupported(const JsonObject& object, double metallic, double roughne
     object.word("alphaMode", "opaque", {"opaque"}, {"mask", "blend"});
     if (object.has("normalTexture")) object.fail("normalTexture", "'normalTexture'" + later, "leave it out");
     if (object.has("glass")) object.fail("glass", "'glass'" + later, "give 'ior' and 'transmission'");
-    if (object.boolean("thin", false)) object.fail("thin", "'thin'" + later, "leave it out");
     if (metallic > 0 && transmission > 0)
         object.fail("transmission", "a material cannot be metallic and transmissive", "set one of them to 0");
     if (transmission > 0 && roughness > 0)
@@ -49,13 +52,21 @@ void rejectUnsupported(const JsonObject& object, double metallic, double roughne
                     "set 'roughness' to 0 (its default is 0.5)");
 }
 
-void warnIgnoredMedium(const JsonObject& object) {
-    object.color("attenuationColor", glm::vec3(1), kZeroToOne);
-    object.number("attenuationDistance", 1, kPositive);
-    for (const char* key : {"attenuationColor", "attenuationDistance"})
-        if (object.has(key)) object.warnIgnored(key, "glass is drawn without absorption");
-    if (object.number("inscatter", 0, kZeroToOne) > 0) object.warnIgnored("inscatter", "glass is drawn clear");
+/// What light of `color` is left over `distance` metres, as a coefficient. Black is opaque after any distance that a float can tell.
+float absorptionOf(float color, double distance) {
+    constexpr double kOpaque = 1e30;
+    const double sigma = color > 0 ? -std::log(double{color}) / distance : kOpaque;
+    return static_cast<float>(std::clamp(sigma, 0.0, kOpaque));
+}
+
+Medium readMedium(const JsonObject& object) {
+    const glm::vec3 color = object.color("attenuationColor", glm::vec3(1), kZeroToOne);
+    const double distance = object.number("attenuationDistance", 1, kPositive);
+    Medium medium;
+    for (int i = 0; i < 3; ++i) medium.absorption[i] = absorptionOf(color[i], distance);
+    medium.inscatter = static_cast<float>(object.number("inscatter", 0, kZeroToOne));
     if (object.number("dispersion", 0, kNotNegative) > 0) object.warnIgnored("dispersion", "all wavelengths refract by 'ior'");
+    return medium;
 }
 
 Material readPbr(SceneFile& file, const JsonValue& value, const std::string& what, Scene& scene) {
@@ -65,9 +76,10 @@ Material readPbr(SceneFile& file, const JsonValue& value, const std::string& wha
     const double transmission = object.number("transmission", 0, kZeroToOne);
     object.number("alphaCutoff", 0.5, kZeroToOne);
     rejectUnsupported(object, metallic, roughness, transmission);
-    warnIgnoredMedium(object);
 
     Material material;
+    material.medium = readMedium(object);
+    material.thin = object.boolean("thin", false);
     glm::vec3 baseColor(1);
     const JsonValue* base = object.find("baseColor");
     if (base && base->type == JsonType::string) {
@@ -111,10 +123,17 @@ uint32_t findCheckerPart(const SceneFile& file, const JsonValue& name, const Sce
     const uint32_t index = findMaterial(file, name, scene);
     if (scene.materials[index].checker)
         throw Error(file.at(name), inQuotes(name.string) + " is a checker itself", "name a phong or pbr material");
+    if (boundsVolume(scene.materials[index]))
+        throw Error(file.at(name), inQuotes(name.string) + " transmits light, and a checker of it would have two insides",
+                    "name an opaque material, or one with \"thin\": true");
     return index;
 }
 
 }  // namespace
+
+bool boundsVolume(const Material& material) {
+    return !material.checker && !material.thin && material.transmit != glm::vec3(0);
+}
 
 uint32_t findMaterial(const SceneFile& file, const JsonValue& name, const Scene& scene) {
     requireType(file, name, "a material's name", JsonType::string);

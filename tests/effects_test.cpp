@@ -18,6 +18,7 @@ namespace {
 struct Small {
     Scene scene;
     Geometry geometry;
+    Volumes volumes;
     bool floatNodes = false;
 
     Small() {
@@ -26,7 +27,7 @@ struct Small {
         Primitive triangle;
         triangle.p = {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)};
         geometry.primitives = {triangle};
-        geometry.objectNames = {"thing"};
+        geometry.bodies = {{"thing", {}}};
     }
 
     Material& paint() { return scene.materials[0]; }
@@ -42,7 +43,7 @@ struct Small {
         scene.images.push_back(image);
         return static_cast<uint32_t>(scene.images.size() - 1);
     }
-    EffectSet effects() const { return analyseEffects(scene, geometry, floatNodes); }
+    EffectSet effects() const { return analyseEffects(scene, geometry, volumes, floatNodes); }
 };
 
 std::string reason(const EffectSet& effects, Effect effect) {
@@ -176,10 +177,10 @@ TEST_CASE("materials that no object uses call for nothing") {
 TEST_CASE("geometry and lights and background and nodes call for theirs") {
     Small small;
     SUBCASE("spheres") {
-        small.geometry.objectNames.push_back("ball");
+        small.geometry.bodies.push_back({"ball", {}});
         small.geometry.primitives.push_back(small.geometry.primitives[0]);
         small.geometry.primitives[1].isSphere = true;
-        small.geometry.primitives[1].object = 1;
+        small.geometry.primitives[1].body = 1;
         CHECK(included(small.effects()) == "spheres ");
         CHECK(reason(small.effects(), Effect::spheres) == "ball");
     }

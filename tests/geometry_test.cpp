@@ -295,8 +295,9 @@ TEST_CASE("each instance is a copy with a name of its own") {
     scene.objects[0].instances[2].translate = {10, 0, 0};
     const Geometry geometry = flat(scene);
     CHECK(geometry.primitives.size() == 36);
-    CHECK(geometry.objectNames == std::vector<std::string>{"m.obj[0]", "m.obj[1]", "m.obj[2]"});
-    CHECK(geometry.primitives[35].object == 2);
+    REQUIRE(geometry.bodies.size() == 3);
+    for (uint32_t i = 0; i < 3; ++i) CHECK(geometry.bodies[i].name == "m.obj[" + std::to_string(i) + "]");
+    CHECK(geometry.primitives[35].body == 2);
     CHECK(geometry.origin == glm::dvec3(5, 0, 0));
 }
 

@@ -29,8 +29,10 @@ static_assert(sizeof(oracle::Ray) == 32 && sizeof(DeviceHit) == 8, "the layout t
 std::vector<uint8_t> blobOf(const minirtc::Scene& scene, const minirtc::Geometry& geometry, const minirtc::Bvh& bvh,
                             minirtc::LayoutChoice layout) {
     const minirtc::EncodedNodes nodes = minirtc::encodeNodes(bvh, geometry, layout);
-    const minirtc::EffectSet effects = minirtc::analyseEffects(scene, geometry, nodes.layout == MINIRT_NODES_FLOAT);
-    return minirtc::assembleBlob(scene, geometry, bvh, nodes, effects, {minirtc::compileKernel("rays", effects)});
+    minirtc::Diagnostics diagnostics;
+    const minirtc::Volumes volumes = minirtc::analyseVolumes(scene, geometry, diagnostics);
+    const minirtc::EffectSet effects = minirtc::analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT);
+    return minirtc::assembleBlob({scene, geometry, bvh, nodes, volumes, effects, {minirtc::compileKernel("rays", effects)}});
 }
 
 /// As the device reads them: whole groups, the ends finite.

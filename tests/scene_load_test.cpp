@@ -355,6 +355,6 @@ TEST_CASE("the seed scenes load with the counts of their files") {
         CHECK(geometry.primitives.size() == expected.primitives);
         CHECK(geometry.degenerateTriangles == expected.degenerate);
         CHECK(geometry.anySmooth == expected.smooth);
-        CHECK(geometry.objectNames.size() == expected.objects);
+        CHECK(geometry.bodies.size() == expected.objects);
     }
 }

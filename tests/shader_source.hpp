@@ -7,6 +7,7 @@
 
 // Names that shaders/common/language.glsl gives in GLSL.
 #define PRECISE
+#define UNROLL
 #define PI 3.14159265358979323846
 #define HALF_PI 1.57079632679489661923
 #define INV_PI 0.31830988618379067154
@@ -71,6 +72,7 @@ inline real nextDown(real x) {
 }  // namespace f64
 
 #undef PRECISE
+#undef UNROLL
 #undef PI
 #undef HALF_PI
 #undef INV_PI

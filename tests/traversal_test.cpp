@@ -55,7 +55,7 @@ Model modelOf(const oracle::Mesh& mesh) {
     minirtc::Scene scene;
     scene.materials.resize(1);
     minirtc::Geometry geometry;
-    geometry.objectNames = {"mesh"};
+    geometry.bodies = {{"mesh", {}}};
     geometry.boundsMin = glm::vec3(oracle::kInfinity);
     geometry.boundsMax = glm::vec3(-oracle::kInfinity);
     for (const oracle::Triangle& triangle : mesh) {

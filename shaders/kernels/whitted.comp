@@ -8,12 +8,14 @@ struct Segment {
     vec3 direction;
     vec3 throughput;
     uint depth;
+    VolumeList volumes;  // that it is in
 };
 
 // What the ray in flight is for.
 #define PHASE_DONE 0u
 #define PHASE_CLOSEST 1u
 #define PHASE_SHADOW 2u
+#define PHASE_CAMERA 3u  // on its way to the camera from outside of the scene, to find out which volumes that is in
 
 /// A pixel's progress through its tree. Its waiting segments are in the state buffer.
 struct TreeWalk {
@@ -24,16 +26,20 @@ struct TreeWalk {
     float hitT;
     uint light;     // the next light to look at
     vec3 unshadowed;  // what the shadow ray's light adds unless it is blocked
+    VolumeList shadowVolumes;  // that the shadow ray is in
     vec3 radiance;    // gathered so far; summed in one order wherever the work was cut, so that a picture does not depend on it
 };
 
-uint waitingWord(uint index) { return MINIRT_WALK_WORDS + MINIRT_TRAVERSAL_WORDS + STACK_LEVELS + index * MINIRT_SEGMENT_WORDS; }
+uint waitingWord(uint index) {
+    return MINIRT_WALK_WORDS(SAVED_VOLUMES) + MINIRT_TRAVERSAL_WORDS + STACK_LEVELS + index * MINIRT_SEGMENT_WORDS(SAVED_VOLUMES);
+}
 
 void putSegment(uint slot, inout uint word, Segment segment) {
     putVec3(slot, word, segment.origin);
     putVec3(slot, word, segment.direction);
     putVec3(slot, word, segment.throughput);
     putWord(slot, word, segment.depth);
+    putVolumes(slot, word, segment.volumes);
 }
 
 Segment takeSegment(uint slot, inout uint word) {
@@ -42,6 +48,7 @@ Segment takeSegment(uint slot, inout uint word) {
     segment.direction = takeVec3(slot, word);
     segment.throughput = takeVec3(slot, word);
     segment.depth = takeWord(slot, word);
+    segment.volumes = takeVolumes(slot, word);
     return segment;
 }
 
@@ -55,6 +62,7 @@ void saveWalk(uint slot, TreeWalk walk, Traversal ray) {
     putFloat(slot, word, walk.hitT);
     putWord(slot, word, walk.light);
     putVec3(slot, word, walk.unshadowed);
+    putVolumes(slot, word, walk.shadowVolumes);
     putVec3(slot, word, walk.radiance);
     putTraversal(slot, word, ray);
 }
@@ -69,8 +77,9 @@ void loadWalk(uint slot, inout TreeWalk walk, inout Traversal ray) {
     walk.hitT = takeFloat(slot, word);
     walk.light = takeWord(slot, word);
     walk.unshadowed = takeVec3(slot, word);
+    walk.shadowVolumes = takeVolumes(slot, word);
     walk.radiance = takeVec3(slot, word);
-    ray = takeTraversal(slot, word, walk.phase == PHASE_SHADOW);
+    ray = takeTraversal(slot, word, walk.phase == PHASE_SHADOW && !SHADOWS_PASS);
 }
 
 Traversal traceSegment(inout TreeWalk walk, Segment segment) {
@@ -79,25 +88,64 @@ Traversal traceSegment(inout TreeWalk walk, Segment segment) {
     return beginTraversal(segment.origin, segment.direction, MINIRT_RAY_END, false);
 }
 
+/// The ray of a pixel. Where the camera may be in a volume, another one comes first: to the camera, from outside of the scene.
+Traversal traceCamera(inout TreeWalk walk, uvec2 pixel, VolumeList volumes) {
+    return traceSegment(walk, Segment(frame.position.xyz, cameraDirection(pixel, frame.sampling.x), vec3(1.0), 0u, volumes));
+}
+
+/// The direction is that of no symmetry, so that it meets few edges of what people model.
+Traversal traceToCamera(inout TreeWalk walk) {
+    const vec3 outwards = vec3(0.3713907, 0.7427814, 0.5570860);
+    float distance = 2.0 * length(max(abs(scene.boundsMin.xyz - frame.position.xyz), abs(scene.boundsMax.xyz - frame.position.xyz)));
+    Segment segment = Segment(frame.position.xyz + distance * outwards, -outwards, vec3(0.0), 0u, noVolumes());
+    walk.phase = PHASE_CAMERA;
+    walk.segment = segment;
+    return beginTraversal(segment.origin, segment.direction, distance, false);
+}
+
+/// A surface as the ray that hits it sees it.
+struct Encounter {
+    Surface surface;
+    minirt_material material;
+    vec3 ng;  // geometric and shading normal on the side of the ray
+    vec3 n;
+    Boundary boundary;
+    float eta;  // index of refraction behind the surface over the one in front
+};
+
+Encounter encounterAt(vec3 origin, vec3 direction, uint slot, float t, VolumeList volumes) {
+    Encounter e;
+    e.surface = surfaceAt(origin, direction, slot, t);
+    e.material = fetchMaterial(e.surface.material);
+    bool entering = dot(direction, e.surface.ng) < 0.0;
+    e.ng = entering ? e.surface.ng : -e.surface.ng;
+    e.n = entering ? e.surface.n : -e.surface.n;
+    e.boundary = boundaryAt(volumes, bodyOf(slot), entering);
+    e.eta = iorRatio(e.boundary, e.material, entering);
+    return e;
+}
+
 /// Light that adds less than this share of itself is not worth a shadow ray: a unit in the last place of what other lights add.
 const float NEGLIGIBLE_SHARE = 5.9604644775390625e-8;
 
 /// Looks for the next light that adds something at the surface, and starts the shadow ray towards it. Without one, or when the budget
 /// of steps ends the search, the ray is empty.
-Traversal traceShadow(inout TreeWalk walk, inout uint steps, Surface surface, minirt_material material, vec3 ng, vec3 n) {
+Traversal traceShadow(inout TreeWalk walk, inout uint steps, Encounter e) {
     Traversal ray = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, true);
     ray.node = NODE_NONE;
     walk.phase = PHASE_SHADOW;
     walk.unshadowed = vec3(0.0);
+    walk.shadowVolumes = e.boundary.reflected;
     while (walk.light < lightCount() && ray.node == NODE_NONE && steps < STEP_BUDGET) {
         steps++;
-        LightSample light = sampleLight(walk.light++, surface.p);
-        float cosine = dot(n, light.toLight);
-        vec3 share = material.diffuse.rgb * surface.diffuseTexture * max(cosine, 0.0);
-        share += cosine > 0.0 ? highlight(material, n, light.toLight, -walk.segment.direction) : vec3(0.0);
+        LightSample light = sampleLight(walk.light++, e.surface.p);
+        float cosine = dot(e.n, light.toLight);
+        vec3 share = e.material.diffuse.rgb * e.surface.diffuseTexture * max(cosine, 0.0);
+        share += cosine > 0.0 ? highlight(e.material, e.n, light.toLight, -walk.segment.direction) : vec3(0.0);
         if (maxComponent(share) > NEGLIGIBLE_SHARE) {
             walk.unshadowed = walk.segment.throughput * share * light.irradiance;
-            ray = beginTraversal(offsetRayOrigin(surface.p + surface.lift, surface.pError, ng, ng), light.toLight, light.distance, true);
+            vec3 origin = offsetRayOrigin(e.surface.p + e.surface.lift, e.surface.pError, e.ng, e.ng);
+            ray = beginTraversal(origin, light.toLight, light.distance, !SHADOWS_PASS);
         }
     }
     return ray;
@@ -105,18 +153,42 @@ Traversal traceShadow(inout TreeWalk walk, inout uint steps, Surface surface, mi
 
 bool carriesOn(vec3 weight) { return maxComponent(weight) > frame.position.w; }
 
+/// The shadow ray goes on behind a clear surface, tinted; it ends there when too little of its light is left.
+Traversal passShadow(inout TreeWalk walk, Traversal ray, Encounter e) {
+    vec3 share = transmittance(e.boundary.from, ray.t);
+    if (!e.boundary.skipped) share *= passingShare(e.material, ray.direction, e.n, e.eta);
+    walk.unshadowed *= share;
+    walk.shadowVolumes = e.boundary.transmitted;
+    LightSample light = sampleLight(walk.light - 1u, e.surface.p);
+    Traversal onwards = beginTraversal(offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng), ray.direction, light.distance, false);
+    if (maxComponent(walk.unshadowed) <= 0.0) onwards.node = NODE_NONE;
+    return onwards;
+}
+
+/// The ray to the camera goes on behind any surface.
+Traversal passToCamera(inout TreeWalk walk, Traversal ray, Encounter e) {
+    walk.segment.origin = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng);
+    walk.segment.volumes = e.boundary.transmitted;
+    float left = dot(frame.position.xyz - walk.segment.origin, ray.direction);
+    return beginTraversal(walk.segment.origin, ray.direction, max(left, 0.0), false);
+}
+
 /// Follows one of the rays that leave the surface, puts the other on the list; with none, takes one from the list.
-Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Surface surface, minirt_material material, vec3 ng, vec3 n) {
+Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Encounter e) {
     Traversal ray = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, false);
     Segment from = walk.segment;
-    Scatter branches = scatter(material, from.direction, ng, dot(from.direction, n) < 0.0 ? n : ng, dot(from.direction, surface.ng) < 0.0);
-    vec3 reflectThroughput = from.throughput * branches.reflectWeight;
-    vec3 refractThroughput = from.throughput * branches.refractWeight;
-    bool deeper = hit && from.depth < frame.sampling.z;
+    Scatter branches = scatter(e.material, from.direction, e.ng, dot(from.direction, e.n) < 0.0 ? e.n : e.ng, e.eta);
+    bool straight = e.boundary.skipped;  // costs no depth
+    vec3 reflectThroughput = straight ? vec3(0.0) : from.throughput * branches.reflectWeight;
+    vec3 refractThroughput = straight ? from.throughput : from.throughput * branches.refractWeight;
+    bool deeper = hit && (straight || from.depth < frame.sampling.z);
     bool reflects = deeper && carriesOn(reflectThroughput);
     bool refracts = deeper && carriesOn(refractThroughput);
-    Segment reflected = Segment(offsetRayOrigin(surface.p, surface.pError, ng, ng), branches.reflected, reflectThroughput, from.depth + 1u);
-    Segment refracted = Segment(offsetRayOrigin(surface.p, surface.pError, ng, -ng), branches.refracted, refractThroughput, from.depth + 1u);
+    vec3 above = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, e.ng);
+    vec3 below = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng);
+    Segment reflected = Segment(above, branches.reflected, reflectThroughput, from.depth + 1u, e.boundary.reflected);
+    Segment refracted = Segment(below, straight ? from.direction : branches.refracted, refractThroughput,
+                                straight ? from.depth : from.depth + 1u, e.boundary.transmitted);
     bool room = walk.waiting < frame.size.z;
     if (reflects && refracts && room) {
         uint word = waitingWord(walk.waiting++);
@@ -133,17 +205,30 @@ Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Surface surface,
     return ray;
 }
 
+/// A segment has ended: what its medium takes and adds on the way, then the background or what shines by itself.
+void arrive(inout TreeWalk walk, bool hit, Encounter e) {
+    uint medium = hit ? e.boundary.from : mediumAround(walk.segment.volumes);
+    float distance = hit ? walk.hitT : MINIRT_RAY_END;
+    walk.radiance += walk.segment.throughput * inscattered(medium, distance);
+    walk.segment.throughput *= transmittance(medium, distance);
+    vec3 shine = hit ? (e.boundary.skipped ? vec3(0.0) : emission(e.material)) : backgroundRadiance(walk.segment.direction);
+    walk.radiance += walk.segment.throughput * shine;
+    walk.light = e.boundary.skipped ? lightCount() : 0u;
+}
+
 void main() {
     PixelTask task = pixelTask();
     if (!task.valid) return;
-    TreeWalk walk = TreeWalk(PHASE_DONE, 0u, Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u), MINIRT_NONE, 0.0, 0u, vec3(0.0), vec3(0.0));
+    Segment none = Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u, noVolumes());
+    TreeWalk walk = TreeWalk(PHASE_DONE, 0u, none, MINIRT_NONE, 0.0, 0u, vec3(0.0), noVolumes(), vec3(0.0));
     Traversal ray;
     if (frame.sampling.w != 0u) {
         loadWalk(task.slot, walk, ray);
         if (walk.phase == PHASE_DONE) return;
+    } else if (TRACKS_VOLUMES && frame.sampling.y != 0u) {
+        ray = traceToCamera(walk);
     } else {
-        vec3 direction = cameraDirection(task.pixel, frame.sampling.x);
-        ray = traceSegment(walk, Segment(frame.position.xyz, direction, vec3(1.0), 0u));
+        ray = traceCamera(walk, task.pixel, noVolumes());
     }
     uvec2 rays = uvec2(0u);
     uint steps = 0u;
@@ -151,29 +236,38 @@ void main() {
         traverse(ray, steps, STEP_BUDGET);
         if (!isDone(ray) || steps >= STEP_BUDGET) break;
         bool arrived = walk.phase == PHASE_CLOSEST;
+        bool toCamera = TRACKS_VOLUMES && walk.phase == PHASE_CAMERA;
+        bool stopped = ray.slot != MINIRT_NONE;
+        bool clear = SHADOWS_PASS && walk.phase == PHASE_SHADOW && stopped && isClear(fetchMaterial(materialOf(ray.slot)));
         if (arrived) {
             walk.hitSlot = ray.slot;
             walk.hitT = ray.t;
-            walk.light = 0u;
-            if (ray.slot == MINIRT_NONE) walk.radiance += walk.segment.throughput * backgroundRadiance(walk.segment.direction);
-        } else if (ray.slot == MINIRT_NONE) {
-            walk.radiance += walk.unshadowed;
         }
-        bool hit = walk.hitSlot != MINIRT_NONE;
-        Surface surface = surfaceAt(walk.segment.origin, walk.segment.direction, hit ? walk.hitSlot : 0u, walk.hitT);
-        minirt_material material = fetchMaterial(surface.material);
-        float side = dot(walk.segment.direction, surface.ng) < 0.0 ? 1.0 : -1.0;
-        vec3 ng = surface.ng * side;
-        vec3 n = surface.n * side;
-        if (arrived && hit) walk.radiance += walk.segment.throughput * emission(material);
-        if (hit && walk.light < lightCount()) {
-            ray = traceShadow(walk, steps, surface, material, ng, n);
-            rays.x += isDone(ray) ? 0u : 1u;
-        }
-        bool allLightsSeen = isDone(ray) && walk.light == lightCount();
-        if (!hit || allLightsSeen) {
-            ray = nextSegment(task.slot, walk, hit, surface, material, ng, n);
-            rays.y += walk.phase == PHASE_CLOSEST ? 1u : 0u;
+        // The surface that matters now: where this ray passes through, or where the segment ended.
+        bool passing = clear || (toCamera && stopped);
+        bool hit = passing || (!toCamera && walk.hitSlot != MINIRT_NONE);
+        uint slot = passing ? ray.slot : walk.hitSlot;
+        Encounter e = encounterAt(passing ? ray.origin : walk.segment.origin, passing ? ray.direction : walk.segment.direction,
+                                  hit ? slot : 0u, passing ? ray.t : walk.hitT, clear ? walk.shadowVolumes : walk.segment.volumes);
+        if (arrived) arrive(walk, hit, e);
+        if (walk.phase == PHASE_SHADOW && !stopped) walk.radiance += walk.unshadowed * transmittance(mediumAround(walk.shadowVolumes), ray.t);
+        if (clear) {
+            ray = passShadow(walk, ray, e);
+            rays.x++;
+        } else if (toCamera && stopped) {
+            ray = passToCamera(walk, ray, e);
+        } else if (toCamera) {
+            ray = traceCamera(walk, task.pixel, walk.segment.volumes);
+        } else {
+            if (hit && walk.light < lightCount()) {
+                ray = traceShadow(walk, steps, e);
+                rays.x += isDone(ray) ? 0u : 1u;
+            }
+            bool allLightsSeen = isDone(ray) && walk.light == lightCount();
+            if (!hit || allLightsSeen) {
+                ray = nextSegment(task.slot, walk, hit, e);
+                rays.y += walk.phase == PHASE_CLOSEST ? 1u : 0u;
+            }
         }
         steps += 2u;  // this pass, and the last one of the search for lights
     }
