@@ -137,7 +137,8 @@ std::vector<minirt_vec4> encodePrimitives(const Geometry& geometry, const Bvh& b
     return rows;
 }
 
-minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const EncodedNodes& nodes, const Volumes& volumes, const ImagePlan& images) {
+minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const EncodedNodes& nodes, const Volumes& volumes,
+                             const ImagePlan& images) {
     minirt_scene_rows rows = {};
     rows.gridOrigin = vec4(nodes.gridOrigin);
     rows.gridScale = vec4(nodes.gridScale);
@@ -319,7 +320,9 @@ std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
     addCorners(writer, geometry, effects);
     writer.add("MATERIAL", materials);
     writer.add("LIGHTS", lights);
-    if (volumes.count > 0) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
+    const bool readsMedia =
+        std::any_of(kernels.begin(), kernels.end(), [](const Kernel& k) { return k.bindings >> MINIRT_BINDING_MEDIA & 1u; });
+    if (readsMedia) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
     addImages(writer, scene, images);
     addKernels(writer, kernels);
     const std::string text = explain(baked);

@@ -21,22 +21,14 @@ constexpr auto kToolsEnvironment = SPV_ENV_VULKAN_1_1;
 
 /// The order in which the parts of a kernel build on each other.
 const std::vector<std::string> kParts = {
-    "common/language.glsl",        "common/neighbours.glsl",
-    "common/numerics.glsl",        "common/pixel.glsl",
-    "common/patterns.glsl",        "bsdf/optics.glsl",
-    "bsdf/medium.glsl",            "media/volumes.glsl",
-    "traverse/box.glsl",           "traverse/triangle.glsl",
-    "traverse/sphere.glsl",        "layout",
-    "common/frame.glsl",           "common/fetch.glsl",
-    "traverse/nodes.glsl",         "effects/spheres.glsl",
-    "traverse/traverse.glsl",      "common/suspend.glsl",
-    "effects/images.glsl",         "effects/background.glsl",
-    "effects/smooth_normals.glsl", "effects/textures.glsl",
-    "common/materials.glsl",       "effects/checker.glsl",
-    "effects/nesting.glsl",        "effects/media.glsl",
-    "common/surface.glsl",         "effects/lights.glsl",
-    "effects/scatter.glsl",        "effects/shadows.glsl",
-    "effects/emission.glsl",
+    "common/language.glsl",        "common/neighbours.glsl", "common/numerics.glsl",  "common/pixel.glsl",
+    "common/patterns.glsl",        "bsdf/optics.glsl",       "bsdf/medium.glsl",      "media/volumes.glsl",
+    "traverse/box.glsl",           "traverse/triangle.glsl", "traverse/sphere.glsl",  "layout",
+    "common/frame.glsl",           "common/fetch.glsl",      "traverse/nodes.glsl",   "effects/spheres.glsl",
+    "traverse/traverse.glsl",      "common/suspend.glsl",    "effects/images.glsl",   "effects/background.glsl",
+    "effects/smooth_normals.glsl", "effects/textures.glsl",  "common/materials.glsl", "effects/checker.glsl",
+    "effects/nesting.glsl",        "effects/media.glsl",     "common/surface.glsl",   "effects/lights.glsl",
+    "effects/scatter.glsl",        "effects/shadows.glsl",   "effects/emission.glsl",
 };
 
 const std::string kHeader = R"(#version 460

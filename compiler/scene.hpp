@@ -68,9 +68,9 @@ struct Material {
     glm::vec3 reflect{0};   // weight of the mirror ray
     glm::vec3 transmit{0};  // weight of the refracted ray
     float ior = 1.0f;
-    bool fresnel = false;  // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
-    bool thin = false;     // a sheet of glass: both of its sides in one surface, nothing inside
-    Medium medium;         // what a closed object of this material is filled with
+    bool fresnel = false;      // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
+    bool thin = false;         // a sheet of glass: both of its sides in one surface, nothing inside
+    Medium medium;             // what a closed object of this material is filled with
     bool clearShadows = true;  // shadow rays pass what transmits, tinted
     glm::vec3 emission{0};
     uint32_t diffuseTexture = kNone;  // index into Scene::images; multiplies `diffuse`
@@ -134,7 +134,7 @@ struct Object {
     uint32_t material = kNone;                                     // index into Scene::materials; kNone: the mesh's own .mtl
     std::vector<Transform> instances = std::vector<Transform>(1);  // each instance becomes a copy in the blob
     std::optional<bool> smooth;                                    // absent: smooth exactly where the OBJ gives normals
-    int priority = 0;                                              // of two volumes that overlap, the higher one displaces the other
+    int priority = 0;  // of two volumes that overlap, the higher one displaces the other
 };
 
 /// How volumes that overlap share space: by one order for every ray, or by the order in which each ray meets them (Ray Tracing Gems

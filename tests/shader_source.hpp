@@ -18,6 +18,7 @@ using glm::abs;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
+using glm::exp;
 using glm::floatBitsToUint;
 using glm::floor;
 using glm::length;
@@ -42,6 +43,7 @@ constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 #include "../shaders/common/pixel.glsl"
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
+#include "../shaders/bsdf/medium.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
@@ -65,6 +67,7 @@ inline real nextDown(real x) {
 #include "../shaders/common/pixel.glsl"
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
+#include "../shaders/bsdf/medium.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
