@@ -37,6 +37,10 @@ bool allOf(const std::array<int, 3>& sides, int side) {
     return sides[0] == side && sides[1] == side && sides[2] == side;
 }
 
+bool hasZero(const std::array<int, 3>& sides) {
+    return sides[0] == 0 || sides[1] == 0 || sides[2] == 0;
+}
+
 /// The edge from p to q, whose ends are on different sides of the triangle's plane, against the triangle.
 Meeting pierce(const glm::dvec3& p, const glm::dvec3& q, const Triangle& t) {
     int least = 1, most = -1;
@@ -126,14 +130,16 @@ Contact meet(const Triangle& a, const Triangle& b) {
     const std::array<int, 3> sidesA = planeB.sides(a);
     if (allOf(sidesA, 1) || allOf(sidesA, -1)) return {};
     if (allOf(sidesA, 0) && allOf(sidesB, 0)) {
-        if (!shareArea(a, b, planeA.normal(), 1e-12 * std::min(longestEdge(a), longestEdge(b)))) return {};
+        if (!shareArea(a, b, planeA.normal(), 1e-12 * std::min(longestEdge(a), longestEdge(b)))) return {Meeting::grazing, {}};
         const bool same = glm::dot(planeA.normal(), planeB.normal()) > 0;
         return {same ? Meeting::sameFront : Meeting::frontToFront, {}};
     }
     const Contact first = pierceEdges(b, sidesB, a, planeA);
     if (first.meeting == Meeting::crossing) return first;
     const Contact second = pierceEdges(a, sidesA, b, planeB);
-    return second.meeting == Meeting::apart ? first : second;
+    const Contact contact = second.meeting == Meeting::apart ? first : second;
+    if (contact.meeting == Meeting::apart && (hasZero(sidesA) || hasZero(sidesB))) return {Meeting::grazing, {}};
+    return contact;
 }
 
 bool lieOnEachOther(const Triangle& a, const Triangle& b, double distance) {

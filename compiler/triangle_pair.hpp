@@ -9,7 +9,8 @@ using Triangle = std::array<glm::dvec3, 3>;
 
 enum class Meeting {
     apart,
-    touching,     // at an edge or corner, as far as double can tell: the surfaces that they belong to may cross there or not
+    grazing,      // not more than corners of one in the plane of the other, as far as double can tell
+    touching,     // at an edge: the surfaces that they belong to may cross there or not
     crossing,     // an edge of one goes through the inside of the other
     sameFront,    // in one plane, with the same front side; they share area
     frontToFront  // in one plane, with opposite front sides; they share area
@@ -23,7 +24,7 @@ struct Contact {
 /// Along the normal; its length is twice the area.
 glm::dvec3 areaVector(const Triangle& triangle);
 
-/// Neighbours in a mesh that share an edge or a corner and do no more are apart or touching.
+/// Neighbours in a mesh that share an edge or a corner and do no more are not crossing.
 Contact meet(const Triangle& a, const Triangle& b);
 
 /// True where one lies within `distance` of the plane of the other, and they share an area wider than that, seen along the normal.

@@ -11,14 +11,16 @@ constexpr double kRounding = 1e-12;  // of distances in double, relative: below 
 Meeting meetSpheres(const Primitive& a, const Primitive& b) {
     const double ra = a.p[1].x, rb = b.p[1].x, distance = glm::length(glm::dvec3(a.p[0]) - glm::dvec3(b.p[0]));
     const double margin = kRounding * (ra + rb);
-    return distance < ra + rb - margin && distance > std::fabs(ra - rb) + margin ? Meeting::crossing : Meeting::apart;
+    if (distance > ra + rb + margin || distance < std::fabs(ra - rb) - margin) return Meeting::apart;
+    return distance < ra + rb - margin && distance > std::fabs(ra - rb) + margin ? Meeting::crossing : Meeting::grazing;
 }
 
 Meeting meetSphere(const Primitive& sphere, const Primitive& triangle) {
     const double radius = sphere.p[1].x;
     const DistanceRange range = distances(glm::dvec3(sphere.p[0]), triangleOf(triangle));
-    const bool crosses = range.nearest < radius * (1 - kRounding) && range.farthest > radius * (1 + kRounding);
-    return crosses ? Meeting::crossing : Meeting::apart;
+    const double inner = radius * (1 - kRounding), outer = radius * (1 + kRounding);
+    if (range.nearest > outer || range.farthest < inner) return Meeting::apart;
+    return range.nearest < inner && range.farthest > outer ? Meeting::crossing : Meeting::grazing;
 }
 
 Contact meetPrimitives(const Primitive& a, const Primitive& b) {
@@ -107,17 +109,33 @@ double sizeOf(const Primitive& triangle) {
     return std::sqrt(glm::length(areaVector(triangleOf(triangle))));
 }
 
-bool surfacesCross(const Surface& a, const Surface& b) {
-    return anyPair(a, b, 0, [&](const Primitive& p, const Primitive& q) {
+/// crossing, touching (in no more than points, edges and faces from outside) or apart.
+Meeting meetSurfaces(const Surface& a, const Surface& b) {
+    bool touch = false;
+    const bool cross = anyPair(a, b, 0, [&](const Primitive& p, const Primitive& q) {
         const Contact contact = meetPrimitives(p, q);
+        touch = touch || contact.meeting != Meeting::apart;
         if (contact.meeting == Meeting::touching) return shareSpaceNear(contact.point, std::min(sizeOf(p), sizeOf(q)), a, b);
         return contact.meeting == Meeting::crossing || contact.meeting == Meeting::sameFront;
     });
+    return cross ? Meeting::crossing : touch ? Meeting::touching : Meeting::apart;
 }
 
-Sides sidesOfVolume(const Surface& a, const Surface& b) {
+/// Of surfaces that are apart, each shell is on one side as a whole.
+Sides sidesOfShells(const Solid& solid, const Surface& volume) {
+    Sides sides;
+    for (const Triangle& shell : solid.shells) {
+        const bool inside = isInside(volume, shell[0]).value_or(false);
+        sides.inside = sides.inside || inside;
+        sides.outside = sides.outside || !inside;
+    }
+    return sides;
+}
+
+Sides sidesOfSolid(const Solid& a, const Surface& b, Meeting meeting) {
+    if (meeting == Meeting::apart && !a.shells.empty()) return sidesOfShells(a, b);
     return sidesOf(
-        a, b, [&](const Primitive& primitive) { return isInsideBehind(primitive, a, b); },
+        a.surface, b, [&](const Primitive& primitive) { return isInsideBehind(primitive, a.surface, b); },
         [](const Sides& sides) { return sides.inside && sides.outside; });
 }
 
@@ -136,10 +154,11 @@ bool spheresLieOnEachOther(const Primitive& a, const Primitive& b, double distan
 
 }  // namespace
 
-Overlap overlapOf(const Surface& a, const Surface& b) {
-    if (!boxesShareSpace(a.box(), b.box())) return Overlap::none;
-    if (surfacesCross(a, b)) return Overlap::partial;
-    const Sides ofA = sidesOfVolume(a, b), ofB = sidesOfVolume(b, a);
+Overlap overlapOf(const Solid& a, const Solid& b) {
+    if (!boxesShareSpace(a.surface.box(), b.surface.box())) return Overlap::none;
+    const Meeting meeting = meetSurfaces(a.surface, b.surface);
+    if (meeting == Meeting::crossing) return Overlap::partial;
+    const Sides ofA = sidesOfSolid(a, b.surface, meeting), ofB = sidesOfSolid(b, a.surface, meeting);
     if (!ofA.inside && !ofB.inside) return Overlap::none;
     if (ofA.inside && !ofA.outside && !ofB.inside) return Overlap::firstInside;
     if (ofB.inside && !ofB.outside && !ofA.inside) return Overlap::secondInside;
@@ -148,21 +167,28 @@ Overlap overlapOf(const Surface& a, const Surface& b) {
 
 bool isContent(const Surface& thing, const Surface& volume) {
     if (!areNear(thing.box(), volume.box(), 0)) return false;
-    const bool meets =
-        anyPair(thing, volume, 0, [](const Primitive& p, const Primitive& q) { return meetPrimitives(p, q).meeting != Meeting::apart; });
+    const bool meets = anyPair(thing, volume, 0, [](const Primitive& p, const Primitive& q) {
+        const Meeting meeting = meetPrimitives(p, q).meeting;
+        return meeting != Meeting::apart && meeting != Meeting::grazing;
+    });
     if (meets) return true;
     const auto judge = [&](const Primitive& primitive) { return isInside(volume, pointOf(primitive, 0)); };
     return sidesOf(thing, volume, judge, [](const Sides& sides) { return sides.inside; }).inside;
 }
 
-bool overlapsItself(const Surface& surface, const std::vector<Triangle>& shells) {
-    const bool crosses = anyPairWithin(surface, [](const Primitive& p, const Primitive& q) {
+bool overlapsItself(const Solid& solid) {
+    const bool crosses = anyPairWithin(solid.surface, [](const Primitive& p, const Primitive& q) {
         const Meeting meeting = meetPrimitives(p, q).meeting;
         return meeting == Meeting::crossing || meeting == Meeting::sameFront;
     });
     if (crosses) return true;
-    return std::any_of(shells.begin(), shells.end(),
-                       [&](const Triangle& shell) { return surface.windingBefore(shell).value_or(0) > 0; });
+    return std::any_of(solid.shells.begin(), solid.shells.end(),
+                       [&](const Triangle& shell) { return solid.surface.windingBefore(shell).value_or(0) != 0; });
+}
+
+bool isInsideOutInPart(const Solid& solid) {
+    return std::any_of(solid.shells.begin(), solid.shells.end(),
+                       [&](const Triangle& shell) { return solid.surface.windingBefore(shell).value_or(0) < 0; });
 }
 
 bool lieOnEachOther(const Surface& a, const Surface& b, double distance) {

@@ -12,9 +12,10 @@ namespace {
 
 struct Volume {
     uint32_t body;  // index into Geometry::bodies
-    Surface surface;
-    std::vector<Triangle> shells;  // one triangle of each
-    double size;                   // in m^3
+    Solid solid;
+    double size;  // in m^3
+
+    const Surface& surface() const { return solid.surface; }
 };
 
 std::string toText(const char* format, double value) {
@@ -42,20 +43,15 @@ std::vector<std::vector<Primitive>> volumePrimitives(const Geometry& geometry, c
 Volume sphereVolume(uint32_t body, const Primitive& sphere) {
     const double radius = sphere.p[1].x;
     constexpr double kPi = 3.14159265358979323846;
-    return {body, Surface({sphere}), {}, 4.0 / 3.0 * kPi * radius * radius * radius};
+    return {body, {Surface({sphere}), {}}, 4.0 / 3.0 * kPi * radius * radius * radius};
 }
 
 /// Throws Error where it is none.
 Volume meshVolume(const Geometry& geometry, uint32_t body, const std::vector<Primitive>& triangles,
                   const std::vector<Primitive>& slivers) {
     const ClosedSurface closed = requireClosed(triangles, slivers, geometry.bodies[body], geometry.origin);
-    Volume volume = {body, Surface(triangles), {}, closed.size};
-    for (const uint32_t shell : closed.shells) volume.shells.push_back(triangleOf(triangles[shell]));
-    for (const Triangle& shell : volume.shells)
-        if (volume.surface.windingBefore(shell).value_or(0) < 0)
-            throw Error(geometry.bodies[body].location,
-                        geometry.bodies[body].name + " is inside out in part: a shell of it has its front inside",
-                        "wind all faces counter-clockwise as seen from outside");
+    Volume volume = {body, {Surface(triangles), {}}, closed.size};
+    for (const uint32_t shell : closed.shells) volume.solid.shells.push_back(triangleOf(triangles[shell]));
     return volume;
 }
 
@@ -96,6 +92,8 @@ uint32_t degeneracy(std::vector<std::vector<uint32_t>> neighbours) {
     return result;
 }
 
+constexpr size_t kShownPairs = 8;  // warnings of a kind
+
 class Analysis {
 public:
     Analysis(const Scene& scene, const Geometry& geometry, Diagnostics& diagnostics)
@@ -107,6 +105,7 @@ public:
         overlaps_.resize(volumes_.size());
         for (uint32_t i = 0; i < volumes_.size(); ++i)
             for (uint32_t k = i + 1; k < volumes_.size(); ++k) comparePair(i, k);
+        warnOfMore();
         findSelfOverlap();
         findContent();
         makeCapacity();
@@ -137,10 +136,10 @@ private:
 
     void comparePair(uint32_t i, uint32_t k) {
         const Volume &a = volumes_[i], &b = volumes_[k];
-        const double distance = 2 * offsetBound(a.surface.box(), b.surface.box());
-        if (!areNear(a.surface.box(), b.surface.box(), distance)) return;
-        if (lieOnEachOther(a.surface, b.surface, distance)) warnOfContact(a, b, distance);
-        const Overlap overlap = overlapOf(a.surface, b.surface);
+        const double distance = 2 * offsetBound(a.surface().box(), b.surface().box());
+        if (!areNear(a.surface().box(), b.surface().box(), distance)) return;
+        if (lieOnEachOther(a.surface(), b.surface(), distance)) warnOfContact(a, b, distance);
+        const Overlap overlap = overlapOf(a.solid, b.solid);
         if (overlap == Overlap::none) return;
         overlaps_[i].push_back(k);
         overlaps_[k].push_back(i);
@@ -169,6 +168,7 @@ private:
     }
 
     void warnOfContact(const Volume& a, const Volume& b, double distance) {
+        if (contacts_++ >= kShownPairs) return;
         diagnostics_.warn(bodyOf(b).location,
                           "faces of " + bodyOf(a).name + " and " + bodyOf(b).name +
                               " lie on each other, or nearer than rounding can tell: a ray may pass over one of them",
@@ -180,6 +180,7 @@ private:
         constexpr double kClear = 0.8;
         if (bodyOf(a).priority != bodyOf(b).priority) return;
         if (std::min(a.size, b.size) <= kClear * std::max(a.size, b.size)) return;
+        if (guesses_++ >= kShownPairs) return;
         const Displacement& guess = result_.displacements.back();
         diagnostics_.warn(bodyOf(b).location,
                           bodyOf(a).name + " and " + bodyOf(b).name + " overlap and are of like size: it is a guess that " +
@@ -187,10 +188,22 @@ private:
                           "give one of them a higher \"priority\"");
     }
 
+    void warnOfMore() {
+        const auto more = [&](size_t count, const std::string& what, const std::string& hint) {
+            if (count > kShownPairs)
+                diagnostics_.warn({scene_.path}, std::to_string(count - kShownPairs) + " more pairs of volumes " + what, hint);
+        };
+        more(contacts_, "have faces that lie on each other, or nearer than rounding can tell", "let them overlap");
+        more(guesses_, "overlap and are of like size", "--explain lists them");
+    }
+
     void findSelfOverlap() {
         for (const Volume& volume : volumes_) {
-            if (!result_.selfOverlap.empty()) return;
-            if (overlapsItself(volume.surface, volume.shells)) result_.selfOverlap = bodyOf(volume).name + " overlaps itself";
+            const Body& body = bodyOf(volume);
+            if (isInsideOutInPart(volume.solid))
+                diagnostics_.warn(body.location, body.name + " is inside out in part: a piece of it has its front inside",
+                                  "wind all faces counter-clockwise as seen from outside");
+            if (result_.selfOverlap.empty() && overlapsItself(volume.solid)) result_.selfOverlap = body.name + " overlaps itself";
         }
     }
 
@@ -208,7 +221,7 @@ private:
             if (scene_.lights[i].type != LightType::point) continue;
             for (const Volume& volume : volumes_) {
                 if (!result_.content.empty()) return;
-                if (volume.surface.windingAt(position).value_or(1) > 0)
+                if (volume.surface().windingAt(position).value_or(1) > 0)
                     result_.content = "light " + std::to_string(i) + " in " + bodyOf(volume).name;
             }
         }
@@ -216,7 +229,7 @@ private:
 
     void findInside(uint32_t body, const Surface& thing) {
         for (const Volume& volume : volumes_) {
-            if (!isContent(thing, volume.surface)) continue;
+            if (!isContent(thing, volume.surface())) continue;
             result_.content = geometry_.bodies[body].name + " in " + bodyOf(volume).name;
             return;
         }
@@ -228,8 +241,8 @@ private:
         std::vector<std::vector<Aabb>> nearBody(geometry_.bodies.size());
         for (uint32_t body = 0; body < geometry_.bodies.size(); ++body)
             for (const Volume& volume : volumes_)
-                if (!geometry_.bodies[body].isVolume() && areNear({boxes[body].min, boxes[body].max}, volume.surface.box(), 0))
-                    nearBody[body].push_back(volume.surface.box());
+                if (!geometry_.bodies[body].isVolume() && areNear({boxes[body].min, boxes[body].max}, volume.surface().box(), 0))
+                    nearBody[body].push_back(volume.surface().box());
         std::vector<std::vector<Primitive>> near(geometry_.bodies.size());
         for (const Primitive& primitive : geometry_.primitives) {
             const std::vector<Aabb>& candidates = nearBody[primitive.body];
@@ -255,6 +268,7 @@ private:
     Diagnostics& diagnostics_;
     std::vector<Volume> volumes_;
     std::vector<std::vector<uint32_t>> overlaps_;  // of each volume
+    size_t contacts_ = 0, guesses_ = 0;            // pairs that a warning tells of
     Volumes result_;
 };
 
