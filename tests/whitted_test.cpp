@@ -663,20 +663,6 @@ TEST_CASE("a region equals the same part of the whole picture bit for bit") {
     }
 }
 
-namespace {
-
-Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, const std::string& text) {
-    minirtc::BakeOptions options;
-    options.scene = dir.write("all.json", text).string();
-    options.output = (dir.path() / "all.mrt").string();
-    options.allEffects = true;
-    options.quiet = true;
-    minirtc::bake(options);
-    return LoadedScene(gpu, options.output).render();
-}
-
-}  // namespace
-
 TEST_CASE("an opaque mirror with Fresnel is the same from both sides whatever else the kernel holds") {
     GpuContext gpu;
     if (!gpu) return;
