@@ -69,6 +69,7 @@ void addVolumes(EffectSet& effects, const Scene& scene, const Volumes& volumes) 
     const bool mediumMatters = effects.has(Effect::absorption) || effects.has(Effect::fresnel);
     callFor(effects, Effect::nesting, !volumes.overlap.empty(), volumes.overlap);
     callFor(effects, Effect::nesting, !volumes.content.empty() && mediumMatters, volumes.content);
+    callFor(effects, Effect::nesting, !volumes.selfOverlap.empty(), volumes.selfOverlap);
     const bool nests = effects.has(Effect::nesting);
     callFor(effects, Effect::selfOverlap, nests && !volumes.selfOverlap.empty(), volumes.selfOverlap);
     callFor(effects, Effect::parity, nests && scene.nesting == Nesting::parity, "\"nesting\": \"parity\"");
