@@ -97,8 +97,9 @@ std::optional<bool> isInsideBehind(const Primitive& primitive, const Surface& ow
 /// Looks around a point where edges touch for one that is in both volumes.
 bool shareSpaceNear(const glm::dvec3& point, double size, const Surface& a, const Surface& b) {
     for (int i = 0; i < 27; ++i) {
+        const glm::ivec3 step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
         // Turned a little out of the axes, along which edges tend to run.
-        const glm::dvec3 direction(i % 3 - 1 + 0.0713, i / 3 % 3 - 1 - 0.1319, i / 9 - 1 + 0.1931);
+        const glm::dvec3 direction = glm::dvec3(step) + glm::dvec3(0.0713, -0.1319, 0.1931);
         const glm::dvec3 near = point + direction * (kDepths[0] * size);
         if (isInside(a, near).value_or(false) && isInside(b, near).value_or(false)) return true;
     }

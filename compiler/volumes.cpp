@@ -78,8 +78,9 @@ double offsetBound(const Aabb& a, const Aabb& b) {
 }
 
 /// The least number k such that every set of volumes has one that overlaps at most k others of the set: no k + 2 volumes all overlap one another.
-uint32_t degeneracy(std::vector<std::vector<uint32_t>> neighbours) {
+uint32_t degeneracy(const std::vector<std::vector<uint32_t>>& neighbours) {
     std::vector<uint32_t> degree;
+    degree.reserve(neighbours.size());
     for (const std::vector<uint32_t>& list : neighbours) degree.push_back(static_cast<uint32_t>(list.size()));
     uint32_t result = 0;
     for (size_t removed = 0; removed < neighbours.size(); ++removed) {

@@ -1,5 +1,3 @@
-#include "volumes.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,8 +5,10 @@
 
 #include "closed_mesh.hpp"
 #include "closed_surface.hpp"
+#include "random.hpp"
 #include "support.hpp"
 #include "volume_overlap.hpp"
+#include "volumes.hpp"
 
 using namespace minirtc;
 using test::ClosedMesh;
@@ -130,6 +130,28 @@ ClosedMesh both(ClosedMesh mesh, const ClosedMesh& other, double scale, const gl
 
 Transform at(const glm::dvec3& translate, const glm::dvec3& scale = glm::dvec3(1), const glm::dvec3& rotate = glm::dvec3(0)) {
     return {scale, rotate, translate};
+}
+
+/// Two convex meshes: whether all normals of faces and products of edges leave them apart (separating axis theorem).
+bool isSeparated(const Geometry& geometry) {
+    std::vector<glm::dvec3> edges[2], axes;
+    for (const Primitive& t : geometry.primitives) {
+        const glm::dvec3 u(t.p[1] - t.p[0]), v(t.p[2] - t.p[0]);
+        edges[t.body].insert(edges[t.body].end(), {u, v});
+        axes.push_back(glm::cross(u, v));
+    }
+    for (const glm::dvec3& u : edges[0])
+        for (const glm::dvec3& v : edges[1]) axes.push_back(glm::cross(u, v));
+    return std::any_of(axes.begin(), axes.end(), [&](const glm::dvec3& axis) {
+        double lo[2] = {1e300, 1e300}, hi[2] = {-1e300, -1e300};
+        for (const Primitive& t : geometry.primitives) {
+            for (const glm::vec3& p : t.p) {
+                lo[t.body] = std::min(lo[t.body], glm::dot(axis, glm::dvec3(p)));
+                hi[t.body] = std::max(hi[t.body], glm::dot(axis, glm::dvec3(p)));
+            }
+        }
+        return hi[0] < lo[1] || hi[1] < lo[0];
+    });
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -696,6 +718,25 @@ TEST_CASE("random boxes overlap exactly where an independent test says so") {
         const glm::dvec3 lo = glm::max(position, glm::dvec3(0)), hi = glm::min(position + size, glm::dvec3(2));
         const bool expected = lo.x < hi.x && lo.y < hi.y && lo.z < hi.z;
         CHECK_MESSAGE(builder.volumes().displacements.size() == (expected ? 1 : 0), "case ", i);
+        overlapping += expected ? 1 : 0;
+    }
+    CHECK(overlapping > 50);
+    CHECK(overlapping < 250);
+}
+
+TEST_CASE("random parallelepipeds overlap exactly where no plane separates them") {
+    test::Random random(7);
+    int overlapping = 0;
+    for (int i = 0; i < 300; ++i) {
+        Builder builder;
+        for (const char* name : {"a", "b"}) {
+            glm::dvec3 x = random.direction(), y = random.direction(), z = random.direction();
+            if (glm::dot(glm::cross(x, y), z) < 0) std::swap(x, y);
+            builder.mesh(name, sheared(x, y, z), at(random.inCube(0.8)));
+        }
+        const size_t pairs = builder.volumes().displacements.size();
+        const bool expected = !isSeparated(builder.geometry);
+        CHECK_MESSAGE(pairs == (expected ? 1 : 0), "case ", i);
         overlapping += expected ? 1 : 0;
     }
     CHECK(overlapping > 50);
