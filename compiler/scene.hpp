@@ -53,10 +53,20 @@ struct Light {
     bool inverseSquare = true;       // false: "falloff":"none", the seeds' lights
 };
 
+/// Index of refraction as a sum of powers of c = 1 / wavelength^2 in 1/um^2: of c^-1, 1, c, c^2, c^3 and c^4.
+using IndexCurve = std::array<double, 6>;
+
+/// A medium's index of refraction where it depends on the wavelength.
+struct Dispersion {
+    glm::dvec3 channels{1};  // red, green and blue by themselves
+    IndexCurve curve{};
+};
+
 /// The inside of an object that transmits.
 struct Medium {
-    glm::vec3 absorption{0};  // sigma in 1/m; light keeps exp(-sigma * d) of itself over a distance d
-    float inscatter = 0;      // 0 to 1: share of the light taken away that comes back as the medium's own
+    glm::vec3 absorption{0};               // sigma in 1/m; light keeps exp(-sigma * d) of itself over a distance d
+    float inscatter = 0;                   // 0 to 1: share of the light taken away that comes back as the medium's own
+    std::optional<Dispersion> dispersion;  // absent: `ior` for all wavelengths
 };
 
 /// What light does at a surface, in the weights that the Whitted kernel uses. `phong`, `pbr` and .mtl materials all become this.
@@ -68,9 +78,9 @@ struct Material {
     glm::vec3 reflect{0};   // weight of the mirror ray
     glm::vec3 transmit{0};  // weight of the refracted ray
     float ior = 1.0f;
-    bool fresnel = false;  // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
-    bool thin = false;     // a sheet of glass: both of its sides in one surface, nothing inside
-    Medium medium;         // what a closed object of this material is filled with
+    bool fresnel = false;      // exact Fresnel splits: mirror ray reflect * F, refracted ray transmit * (1 - F)
+    bool thin = false;         // a sheet of glass: both of its sides in one surface, nothing inside
+    Medium medium;             // what a closed object of this material is filled with
     bool clearShadows = true;  // shadow rays pass what transmits, tinted
     glm::vec3 emission{0};
     uint32_t diffuseTexture = kNone;  // index into Scene::images; multiplies `diffuse`
@@ -134,7 +144,7 @@ struct Object {
     uint32_t material = kNone;                                     // index into Scene::materials; kNone: the mesh's own .mtl
     std::vector<Transform> instances = std::vector<Transform>(1);  // each instance becomes a copy in the blob
     std::optional<bool> smooth;                                    // absent: smooth exactly where the OBJ gives normals
-    int priority = 0;                                              // of two volumes that overlap, the higher one displaces the other
+    int priority = 0;  // of two volumes that overlap, the higher one displaces the other
 };
 
 /// How volumes that overlap share space: by one order for every ray, or by the order in which each ray meets them (Ray Tracing Gems
@@ -143,6 +153,9 @@ enum class Nesting { ordered, parity };
 
 /// Whether shadow rays pass through what transmits: all of it, none of it, or physical glass only.
 enum class Shadows { byModel, transmissive, opaque };
+
+/// How light of different wavelengths parts where it refracts: as three channels with an index each, or as wavelengths, some a sample.
+enum class DispersionMode { rgb, spectral };
 
 enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2 };
 
@@ -153,6 +166,7 @@ struct RenderDefaults {
     uint32_t width = 1024;
     uint32_t height = 768;
     Shadows shadows = Shadows::byModel;
+    DispersionMode dispersionMode = DispersionMode::rgb;
 };
 
 struct Scene {
