@@ -35,6 +35,7 @@ using namespace shader_names;
 using real = float;
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
+using vec4 = glm::vec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 // clang-format off
 #include "../shaders/common/neighbours.glsl"
@@ -42,6 +43,7 @@ constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 #include "../shaders/common/pixel.glsl"
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
+#include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
@@ -53,6 +55,7 @@ using namespace shader_names;
 using real = double;
 using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 inline real nextUp(real x) {
     return std::nextafter(x, std::numeric_limits<real>::infinity());
@@ -65,6 +68,7 @@ inline real nextDown(real x) {
 #include "../shaders/common/pixel.glsl"
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
+#include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
