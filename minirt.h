@@ -143,7 +143,7 @@ struct minirt_scene_rows {
     minirt_vec4 background; /* rgb: radiance, or the factor of the image; w: rotation of the image in turns */
     minirt_vec4 boundsMin;  /* xyz: of everything, scene space */
     minirt_vec4 boundsMax;
-    minirt_uvec4 counts;    /* x: lights, y: index of the background image or MINIRT_NONE, z: volumes */
+    minirt_uvec4 counts; /* x: lights, y: index of the background image or MINIRT_NONE, z: volumes */
 };
 
 struct minirt_material {
@@ -185,7 +185,7 @@ struct minirt_frame {
     minirt_uvec4 size;     /* x, y: image; z: room for waiting segments; w: 1 in the last pass */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
     minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
-    minirt_uvec4 sampling; /* x: sample index, y: 1 where the camera may be in a volume, z: depth limit, w: 1 to go on with saved pixels */
+    minirt_uvec4 sampling; /* x: sample index, y: 1: camera perhaps in a volume, z: depth limit, w: 1 to go on with saved ones */
 };
 
 struct minirt_counters {
@@ -194,6 +194,9 @@ struct minirt_counters {
     MINIRT_UINT segment_overflow; /* rays dropped because the state had no room */
     MINIRT_UINT unfinished;       /* pixels that were pending in the last pass they get */
     MINIRT_UINT volume_overflow;  /* boundaries passed over because a ray was in more volumes than its list holds */
+    MINIRT_UINT reserved0;
+    MINIRT_UINT reserved1;
+    MINIRT_UINT reserved2;
 };
 /* layout-end */
 
@@ -354,16 +357,17 @@ MINIRT_API void minirt_get_device_info(const minirt_context* context, minirt_dev
 typedef struct minirt_blob {
     const minirt_scene_desc* scene;
     const minirt_scene_rows* rows;
-    const uint32_t* nodes;         /* 8 words each, or 16 (MINIRT_NODES_FLOAT) */
-    const minirt_vec4* primitives; /* 3 rows each; w: material | MINIRT_PRIMITIVE_SPHERE, body (volumes first), corners or MINIRT_NONE */
-    const minirt_vec4* normals;    /* 3 rows each: the corners' unit normals */
-    const minirt_vec4* uvs;        /* 2 rows each: u0 v0 u1 v1, u2 v2 0 0 */
+    const uint32_t* nodes; /* 8 words each, or 16 (MINIRT_NODES_FLOAT) */
+    const minirt_vec4*
+        primitives; /* 3 rows each; w: material | MINIRT_PRIMITIVE_SPHERE, body (volumes first), corners or MINIRT_NONE */
+    const minirt_vec4* normals; /* 3 rows each: the corners' unit normals */
+    const minirt_vec4* uvs;     /* 2 rows each: u0 v0 u1 v1, u2 v2 0 0 */
     const minirt_material* materials;
     const minirt_light* lights;
     const minirt_image* images;
     const minirt_medium* media;  /* one more than there are volumes, or none at all */
     const minirt_vec4* spectrum; /* 2^MINIRT_SPECTRUM_BITS rows, or none */
-    const uint16_t* texels; /* 4 half floats each: linear rgba */
+    const uint16_t* texels;      /* 4 half floats each: linear rgba */
     const minirt_kernel* kernels;
     const uint8_t* spirv;
     const char* explain; /* JSON: effects with their reasons, objects, sizes (docs/blob_format.md); not terminated */
@@ -708,7 +712,7 @@ inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
         return r.fail(MINIRT_ERROR_CORRUPT, "a grid of no size");
     if (rows.counts.x != b.light_count)
         return r.fail(MINIRT_ERROR_CORRUPT, "%llu lights in a section of %llu", rows.counts.x, b.light_count);
-    if (uint64_t(rows.counts.z) + 1 != (b.medium_count ? b.medium_count : 1))
+    if (b.medium_count && b.medium_count != uint64_t(rows.counts.z) + 1)
         return r.fail(MINIRT_ERROR_CORRUPT, "%llu volumes and %llu media", rows.counts.z, b.medium_count);
     if (s.volume_capacity > 64) return r.fail(MINIRT_ERROR_CORRUPT, "lists of %llu volumes", s.volume_capacity);
     if (rows.counts.y != MINIRT_NONE && rows.counts.y >= b.image_count)
@@ -833,6 +837,8 @@ inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads a spectrum that is not there", i);
         if ((lacksNormals || lacksUvs) && (b.normal_count || b.uv_count))
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads corners that are not there", i);
+        if ((k.bindings >> MINIRT_BINDING_MEDIA & 1u) && !b.medium_count)
+            return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads media that are not there", i);
     }
     return MINIRT_OK;
 }

@@ -337,7 +337,9 @@ std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
     addCorners(writer, geometry, effects);
     writer.add("MATERIAL", materials);
     writer.add("LIGHTS", lights);
-    if (volumes.count > 0) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
+    const bool readsMedia =
+        std::any_of(kernels.begin(), kernels.end(), [](const Kernel& k) { return k.bindings >> MINIRT_BINDING_MEDIA & 1u; });
+    if (readsMedia) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
     if (effects.has(Effect::spectral)) addSpectrum(writer);
     addImages(writer, scene, images);
     addKernels(writer, kernels);

@@ -319,9 +319,9 @@ private:
     Geometry out_;
     WorldBounds bounds_;
     size_t primitiveCount_ = 0;
-    std::vector<glm::dvec3> world_;  // of the mesh instance at hand
-    std::vector<glm::vec3> local_;   // the same in float, relative to the origin
-    std::string instanceName_;       // of the instance at hand
+    std::vector<glm::dvec3> world_;                // of the mesh instance at hand
+    std::vector<glm::vec3> local_;                 // the same in float, relative to the origin
+    std::string instanceName_;                     // of the instance at hand
     std::map<uint32_t, uint32_t> instanceBodies_;  // by the material that they bound
     // Of the object at hand:
     bool lostInRounding_ = false;

@@ -21,9 +21,9 @@ struct CornerAttributes {
 
 /// What a ray can be inside of, or bounce off: an instance of an object. Its faces of each transmissive material are a body of their own.
 struct Body {
-    std::string name;            // for messages
-    SourceLocation location;     // of the object in the scene file
-    uint32_t material = kNone;   // of a volume; kNone where the body bounds none
+    std::string name;           // for messages
+    SourceLocation location;    // of the object in the scene file
+    uint32_t material = kNone;  // of a volume; kNone where the body bounds none
     int priority = 0;
     bool isVolume() const { return material != kNone; }
 };
@@ -35,8 +35,8 @@ struct Geometry {
     std::vector<Primitive> primitives;
     std::vector<CornerAttributes> corners;
     std::vector<Body> bodies;
-    bool anySmooth = false;                // some corner normal differs from its geometric normal
-    uint64_t degenerateTriangles = 0;      // dropped: zero area after rounding to float
+    bool anySmooth = false;            // some corner normal differs from its geometric normal
+    uint64_t degenerateTriangles = 0;  // dropped: zero area after rounding to float
 };
 
 /// The box around a body's primitives, relative to Geometry::origin; min > max where it has none.

@@ -214,7 +214,9 @@ TEST_CASE("asking for all effects adds those missing and keeps the reasons of th
     CHECK(reason(effects, Effect::reflection) == "material 'paint' of thing");
     CHECK(reason(effects, Effect::spheres) == "asked for by --all-effects");
     CHECK_FALSE(effects.has(Effect::floatNodes));  // a layout, not an addition
-    effects[Effect::floatNodes].included = true;
+    CHECK_FALSE(effects.has(Effect::parity));      // a method
+    CHECK_FALSE(effects.has(Effect::selfOverlap));
+    for (const Effect other : {Effect::floatNodes, Effect::parity, Effect::selfOverlap}) effects[other].included = true;
     CHECK(
         std::all_of(effects.choices.begin(), effects.choices.end(), [](const EffectChoice& choice) { return choice.included; }));
 }
@@ -227,9 +229,9 @@ TEST_CASE("a kernel without effects is smaller and has fewer bindings than one w
     MESSAGE("words of SPIR-V: ", pruned.spirv.size(), " without effects, ", full.spirv.size(),
             " with all; bindings: ", bindingCount(pruned.bindings), " and ", bindingCount(full.bindings));
     CHECK(pruned.spirv.size() * 4 < full.spirv.size() * 3);
-    CHECK(full.bindings == (1u << MINIRT_BINDING_COUNT) - 1);
+    CHECK(full.bindings == (((1u << MINIRT_BINDING_COUNT) - 1) & ~(1u << MINIRT_BINDING_SPECTRUM)));
     const uint32_t ofEffects = 1u << MINIRT_BINDING_NORMALS | 1u << MINIRT_BINDING_UVS | 1u << MINIRT_BINDING_LIGHTS |
-                               1u << MINIRT_BINDING_IMAGES | 1u << MINIRT_BINDING_TEXELS;
+                               1u << MINIRT_BINDING_IMAGES | 1u << MINIRT_BINDING_TEXELS | 1u << MINIRT_BINDING_MEDIA;
     CHECK(pruned.bindings == (full.bindings & ~ofEffects));
 }
 

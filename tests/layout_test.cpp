@@ -31,8 +31,10 @@ const std::map<std::string, std::string> kVariables = {
     {"minirt_scene_rows", "scene"}, {"minirt_frame", "frame"}, {"minirt_counters", "counters"}};
 
 /// Rows of 16 bytes of the structs that kernels fetch row by row.
-const std::map<std::string, size_t> kRows = {
-    {"minirt_material", MINIRT_MATERIAL_ROWS}, {"minirt_light", MINIRT_LIGHT_ROWS}, {"minirt_image", MINIRT_IMAGE_ROWS}};
+const std::map<std::string, size_t> kRows = {{"minirt_material", MINIRT_MATERIAL_ROWS},
+                                             {"minirt_light", MINIRT_LIGHT_ROWS},
+                                             {"minirt_image", MINIRT_IMAGE_ROWS},
+                                             {"minirt_medium", MINIRT_MEDIUM_ROWS}};
 
 #define AT(type, member) \
     { #member, offsetof(type, member) }
@@ -42,7 +44,8 @@ const std::map<std::string, Layout> kInCpp = {
     {"minirt_scene_rows",
      {sizeof(minirt_scene_rows),
       {AT(minirt_scene_rows, gridOrigin), AT(minirt_scene_rows, gridScale), AT(minirt_scene_rows, gridPlanes),
-       AT(minirt_scene_rows, background), AT(minirt_scene_rows, counts)}}},
+       AT(minirt_scene_rows, background), AT(minirt_scene_rows, boundsMin), AT(minirt_scene_rows, boundsMax),
+       AT(minirt_scene_rows, counts)}}},
     {"minirt_material",
      {sizeof(minirt_material),
       {AT(minirt_material, diffuse), AT(minirt_material, specular), AT(minirt_material, reflect), AT(minirt_material, transmit),
@@ -50,6 +53,10 @@ const std::map<std::string, Layout> kInCpp = {
     {"minirt_light",
      {sizeof(minirt_light), {AT(minirt_light, position), AT(minirt_light, intensity), AT(minirt_light, options)}}},
     {"minirt_image", {sizeof(minirt_image), {AT(minirt_image, extent), AT(minirt_image, scale)}}},
+    {"minirt_medium",
+     {sizeof(minirt_medium),
+      {AT(minirt_medium, absorption), AT(minirt_medium, ior), AT(minirt_medium, iorCurve), AT(minirt_medium, boundsMin),
+       AT(minirt_medium, boundsMax)}}},
     {"minirt_frame",
      {sizeof(minirt_frame),
       {AT(minirt_frame, position), AT(minirt_frame, forward), AT(minirt_frame, right), AT(minirt_frame, up),
@@ -57,7 +64,8 @@ const std::map<std::string, Layout> kInCpp = {
     {"minirt_counters",
      {sizeof(minirt_counters),
       {AT(minirt_counters, pending), AT(minirt_counters, nan_pixels), AT(minirt_counters, segment_overflow),
-       AT(minirt_counters, unfinished)}}},
+       AT(minirt_counters, unfinished), AT(minirt_counters, volume_overflow), AT(minirt_counters, reserved0),
+       AT(minirt_counters, reserved1), AT(minirt_counters, reserved2)}}},
 };
 
 /// The structs of the slice by their text, with their members.

@@ -237,16 +237,13 @@ TEST_CASE("bad objects are refused") {
 
 TEST_CASE("keys of later versions give one warning each") {
     Loader loader;
-    loader.load(R"({"lights":[{"type":"directional","direction":[0,-1,0]}],"nesting":"parity","camera":{"aperture":0},
-"materials":{"a":{"model":"pbr","transmission":1,"roughness":0,"attenuationColor":[1,0.5,0.5],"attenuationDistance":2},
-"b":{"model":"pbr","transmission":1,"roughness":0,"attenuationColor":[1,0.5,0.5],"inscatter":0,"dispersion":0.1}},
-"objects":[{"sphere":{},"material":"a","priority":1},{"sphere":{},"material":"b","priority":2}]})");
+    loader.load(R"({"lights":[{"type":"directional","direction":[0,-1,0]}],"camera":{"aperture":0},
+"materials":{"a":{"model":"pbr","transmission":1,"roughness":0,"dispersion":0.2},
+"b":{"model":"pbr","transmission":1,"roughness":0,"dispersion":0.1}},
+"objects":[{"sphere":{},"material":"a"},{"sphere":{},"material":"b"}],"render":{"integrators":["whitted"]}})");
     std::vector<std::string> expected = {
-        "s.json:2:83: warning: 'attenuationColor' has no effect in this version; glass is drawn without absorption",
-        "s.json:2:117: warning: 'attenuationDistance' has no effect in this version; glass is drawn without absorption",
-        "s.json:3:109: warning: 'dispersion' has no effect in this version; all wavelengths refract by 'ior'",
-        "s.json:1:67: warning: 'nesting' has no effect in this version; volumes do not nest",
-        "s.json:4:51: warning: 'priority' has no effect in this version; volumes do not nest",
+        "s.json:2:77: warning: 'dispersion' has no effect in this version; all wavelengths refract by 'ior'",
+        "s.json:4:95: warning: 'integrators' has no effect in this version; there is one integrator",
     };
     std::vector<std::string> warnings;
     for (const std::string& warning : loader.diagnostics.warnings) warnings.push_back(loader.strip(warning));
@@ -259,9 +256,9 @@ TEST_CASE("phong materials become weights") {
     const Scene scene = loader.load(R"({"materials":{
 "gem":{"model":"phong","diffuse":0.5,"specular":2,"reflect":0.1,"refract":0.8,"color":[0.6,0.7,0.8],"shininess":125,"ior":1.5},
 "ice":{"model":"phong","diffuse":0,"reflect":0.25,"refract":0.5,"fresnel":true},
-"floor":{"model":"checker","a":"ice","b":"gem","scale":2}},
+"floor":{"model":"checker","a":"white","b":"black","scale":2},"white":{"model":"phong"},"black":{"model":"phong","diffuse":0}},
 "objects":[{"sphere":{},"material":"floor"}]})");
-    REQUIRE(scene.materials.size() == 3);
+    REQUIRE(scene.materials.size() == 5);
     const Material& gem = scene.materials[0];
     CHECK(gem.name == "gem");
     CHECK(gem.diffuse == 0.5f * glm::vec3(0.6f, 0.7f, 0.8f));
@@ -275,8 +272,8 @@ TEST_CASE("phong materials become weights") {
     CHECK(scene.materials[1].reflect == glm::vec3(0.75f));
     CHECK(scene.materials[1].transmit == glm::vec3(0.75f));
     CHECK(scene.materials[2].checker);
-    CHECK(scene.materials[2].checkerA == 1);
-    CHECK(scene.materials[2].checkerB == 0);
+    CHECK(scene.materials[2].checkerA == 3);
+    CHECK(scene.materials[2].checkerB == 4);
     CHECK(scene.materials[2].checkerScale == 2);
 }
 
@@ -301,6 +298,36 @@ TEST_CASE("pbr materials become weights") {
     CHECK(glass.transmit == base);
     CHECK(glass.fresnel);
     CHECK(glass.ior == 0.75f);
+}
+
+TEST_CASE("what fills an object is read as coefficients and black and white are exact") {
+    Loader loader;
+    const Scene scene = loader.load(R"({"nesting":"parity","render":{"shadows":"opaque"},"materials":{
+"clear":{"model":"pbr","transmission":1,"roughness":0,"attenuationColor":[1,0.5,0],"attenuationDistance":2,"inscatter":0.25},
+"sheet":{"model":"pbr","transmission":1,"roughness":0,"thin":true}},
+"objects":[{"sphere":{},"material":"clear","priority":3},{"rectangle":{"u":[1,0,0],"v":[0,1,0]},"material":"sheet"}]})");
+    const Medium& medium = scene.materials[0].medium;
+    CHECK(medium.absorption.r == 0);
+    CHECK(medium.absorption.g == doctest::Approx(std::log(2.0) / 2));
+    CHECK(medium.absorption.b >= 1e29f);
+    CHECK(medium.inscatter == 0.25f);
+    CHECK(boundsVolume(scene.materials[0]));
+    CHECK_FALSE(boundsVolume(scene.materials[1]));
+    CHECK_FALSE(scene.materials[0].clearShadows);
+    CHECK(scene.nesting == Nesting::parity);
+    CHECK(scene.objects[0].priority == 3);
+}
+
+TEST_CASE("shadows are clear by the model unless the scene says which") {
+    const auto clear = [](const std::string& render) {
+        Loader loader;
+        const Scene scene = loader.load("{" + render + R"("materials":{"p":{"model":"phong","refract":1},
+"g":{"model":"pbr","transmission":1,"roughness":0}},"objects":[{"sphere":{},"material":"p"}]})");
+        return std::make_pair(scene.materials[0].clearShadows, scene.materials[1].clearShadows);
+    };
+    CHECK(clear("") == std::make_pair(false, true));
+    CHECK(clear(R"("render":{"shadows":"transmissive"},)") == std::make_pair(true, true));
+    CHECK(clear(R"("render":{"shadows":"opaque"},)") == std::make_pair(false, false));
 }
 
 TEST_CASE("a mesh that several objects name is loaded once") {

@@ -18,6 +18,7 @@ using glm::abs;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
+using glm::exp;
 using glm::floatBitsToUint;
 using glm::floor;
 using glm::length;
@@ -43,6 +44,7 @@ constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 #include "../shaders/common/pixel.glsl"
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
+#include "../shaders/bsdf/medium.glsl"
 #include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
@@ -68,6 +70,7 @@ inline real nextDown(real x) {
 #include "../shaders/common/pixel.glsl"
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
+#include "../shaders/bsdf/medium.glsl"
 #include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"

@@ -282,9 +282,20 @@ double slabRadiance(double ior, double cosI, double distance, uint32_t maxDepth,
     return sum;
 }
 
-std::string slab() {
-    return rectangle({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}, "glass") + "," +
-           rectangle({-8, -8, -1}, {0, 16, 0}, {16, 0, 0}, "glass");
+/// A closed box as an object; its file goes into `dir`.
+std::string box(const TemporaryDir& dir, const std::string& name, const dvec3& lo, const dvec3& hi, const std::string& material) {
+    std::string obj;
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 p(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
+        obj += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+    }
+    obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    dir.write(name + ".obj", obj);
+    return R"({"mesh":")" + name + R"(.obj","material":")" + material + "\"}";
+}
+
+std::string slab(const TemporaryDir& dir) {
+    return box(dir, "slab", {-16, -16, -1}, {16, 16, 0}, "glass");
 }
 
 }  // namespace
@@ -298,7 +309,7 @@ TEST_CASE("a slab of glass transmits the series of its Fresnel products") {
         TemporaryDir dir;
         const LoadedScene scene(
             gpu, test::bakeScene(dir, "{" + view.text() + R"(,"materials":{"glass":)" + glass(ior) + R"(,"wall":)" + glow(2) +
-                                          R"(},"objects":[)" + slab() + "," +
+                                          R"(},"objects":[)" + slab(dir) + "," +
                                           rectangle({-400, -400, -5}, {800, 0, 0}, {0, 800, 0}, "wall") + "]}"));
         for (const uint32_t maxDepth : {0u, 1u, 2u, 3u, 4u, 20u}) {
             CAPTURE(maxDepth);
@@ -315,10 +326,12 @@ TEST_CASE("a slab of glass shifts what is behind it") {
     if (!gpu) return;
     const double ior = 1.5;
     const View view{{0, 0, 2}, {0, 0, 0}, 80, 48};
-    const Picture picture = renderScene(
-        gpu, "{" + view.text() + R"(,"lights":[)" + pointLight({0, 0, -3}, {8, 8, 8}, "inverse-square") +
-                 R"(],"materials":{"glass":)" + glass(ior) + R"(,"wall":{"model":"phong","diffuse":0.5}},"objects":[)" + slab() +
-                 "," + rectangle({-16, -16, -5}, {32, 0, 0}, {0, 32, 0}, "wall") + "]}");
+    TemporaryDir dir;
+    const Picture picture =
+        renderScene(gpu, dir,
+                    "{" + view.text() + R"(,"lights":[)" + pointLight({0, 0, -3}, {8, 8, 8}, "inverse-square") +
+                        R"(],"materials":{"glass":)" + glass(ior) + R"(,"wall":{"model":"phong","diffuse":0.5}},"objects":[)" +
+                        slab(dir) + "," + rectangle({-16, -16, -5}, {32, 0, 0}, {0, 32, 0}, "wall") + "]}");
     const auto wall = [](double lateral) {
         const double d2 = 4 + lateral * lateral;
         return 0.5 * 8 * 2 / std::sqrt(d2) / d2;
@@ -349,8 +362,9 @@ TEST_CASE("a row of half mirrors sends back the exact sum over its tree of rays"
     const View view{{0, 0, 3}, {0, 0, 0}, 30, 16};
     TemporaryDir dir;
     const LoadedScene scene(
-        gpu, test::bakeScene(dir, "{" + view.text() + R"(,"background":{"color":[1,1,1]},"materials":{"half":{"model":"phong",)" +
-                                      R"("diffuse":0,"reflect":0.5,"refract":0.5,"ior":1}},"objects":[)" + planes + "]}"));
+        gpu,
+        test::bakeScene(dir, "{" + view.text() + R"(,"background":{"color":[1,1,1]},"materials":{"half":{"model":"phong",)" +
+                                 R"("diffuse":0,"reflect":0.5,"refract":0.5,"ior":1,"thin":true}},"objects":[)" + planes + "]}"));
     for (const uint32_t maxDepth : {0u, 1u, 2u, 5u, 8u, 20u}) {
         CAPTURE(maxDepth);
         const Picture picture = scene.render(depthLimit(maxDepth));
