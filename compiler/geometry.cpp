@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "closed_surface.hpp"
 #include "vertex_normals.hpp"
 
 namespace minirtc {
@@ -168,9 +169,11 @@ private:
             instanceName_ = object.name + (several ? "[" + std::to_string(i) + "]" : "");
             instanceBodies_.clear();
             if (object.shape == ShapeType::mesh) addMesh(object, Placement(object.instances[i]));
+            keepSlivers();
         }
         if (object.shape == ShapeType::sphere) addSphere(object);
         if (object.shape == ShapeType::rectangle) addRectangle(object);
+        keepSlivers();
         warn(object);
     }
 
@@ -260,6 +263,7 @@ private:
         const glm::dvec3 area = areaVector(p);
         if (area == glm::dvec3(0)) {
             ++dropped_;
+            drop(p, material);
             return;
         }
         noteSize(shortestEdge(p), largestCoordinate(p));
@@ -276,6 +280,24 @@ private:
         }
         out_.anySmooth = out_.anySmooth || bent;
         out_.primitives.push_back(triangle);
+    }
+
+    /// Faces without area make no body.
+    void drop(const std::array<glm::vec3, 3>& p, uint32_t material) {
+        Primitive sliver;
+        sliver.p = p;
+        sliver.material = material;
+        if (boundsVolume(scene_.materials[material])) instanceSlivers_.push_back(sliver);
+    }
+
+    void keepSlivers() {
+        for (Primitive& sliver : instanceSlivers_) {
+            const auto body = instanceBodies_.find(sliver.material);
+            if (body == instanceBodies_.end()) continue;
+            sliver.body = body->second;
+            out_.slivers.push_back(sliver);
+        }
+        instanceSlivers_.clear();
     }
 
     /// Makes all normals unit vectors on the front side of the face; true when some differ from its own. A face whose normals are
@@ -323,6 +345,7 @@ private:
     std::vector<glm::vec3> local_;                 // the same in float, relative to the origin
     std::string instanceName_;                     // of the instance at hand
     std::map<uint32_t, uint32_t> instanceBodies_;  // by the material that they bound
+    std::vector<Primitive> instanceSlivers_;
     // Of the object at hand:
     bool lostInRounding_ = false;
     uint64_t dropped_ = 0;
@@ -346,7 +369,7 @@ std::vector<Bounds> bodyBounds(const Geometry& geometry) {
 }
 
 Geometry flatten(const Scene& scene, Diagnostics& diagnostics) {
-    return Flattener(scene, diagnostics).run();
+    return turnOutward(Flattener(scene, diagnostics).run(), diagnostics);
 }
 
 }  // namespace minirtc

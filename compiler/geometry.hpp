@@ -37,6 +37,7 @@ struct Geometry {
     std::vector<Body> bodies;
     bool anySmooth = false;            // some corner normal differs from its geometric normal
     uint64_t degenerateTriangles = 0;  // dropped: zero area after rounding to float
+    std::vector<Primitive> slivers;    // those of them that belong to volumes: edges of others may meet only through them
 };
 
 /// The box around a body's primitives, relative to Geometry::origin; min > max where it has none.
@@ -51,6 +52,7 @@ std::vector<Bounds> bodyBounds(const Geometry& geometry);
 
 /// Bakes transforms and vertex normals. A negative scale keeps the orientation (the winding is flipped back).
 /// Missing normals of a smooth object are averaged per position, weighted by the angle at the vertex (Thuermer & Wuethrich 1998).
+/// Closed volumes that are inside out are turned round, with a warning.
 /// Throws Error where a coordinate is not finite in float or nothing is left to draw.
 Geometry flatten(const Scene& scene, Diagnostics& diagnostics);
 

@@ -61,4 +61,14 @@ Picture renderScene(const GpuContext& gpu, const std::string& json) {
     return renderScene(gpu, TemporaryDir(), json);
 }
 
+Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, const std::string& json) {
+    minirtc::BakeOptions options;
+    options.scene = dir.write("all.json", json).string();
+    options.output = (dir.path() / "all.mrt").string();
+    options.allEffects = true;
+    options.quiet = true;
+    minirtc::bake(options);
+    return LoadedScene(gpu, options.output).render();
+}
+
 }  // namespace test

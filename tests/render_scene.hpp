@@ -48,4 +48,7 @@ private:
 Picture renderScene(const GpuContext& gpu, const TemporaryDir& dir, const std::string& json);
 Picture renderScene(const GpuContext& gpu, const std::string& json);
 
+/// The same by a kernel with every effect.
+Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, const std::string& json);
+
 }  // namespace test

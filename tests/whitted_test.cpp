@@ -7,111 +7,15 @@
 
 #include "oracle.hpp"
 #include "render_scene.hpp"
+#include "scene_text.hpp"
 
 using glm::dvec3;
-using test::GpuContext;
-using test::LoadedScene;
-using test::Picture;
-using test::renderScene;
-using test::TemporaryDir;
+using namespace test;
 
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kCutoff = 1.0 / 512;  // rays of less throughput end
-
-std::string json(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", number);
-    return text;
-}
-
-std::string json(const dvec3& v) {
-    return "[" + json(v.x) + "," + json(v.y) + "," + json(v.z) + "]";
-}
-
-std::string quoted(const std::string& key) {
-    return "\"" + key + "\":";
-}
-
-/// A pinhole camera, as text for the scene and as rays for the closed form.
-struct View {
-    dvec3 position{0, 0, 5};
-    dvec3 target{0};
-    double vfov = 40;
-    uint32_t size = 48;
-    dvec3 up{0, 1, 0};
-    uint32_t maxDepth = 20;
-    uint32_t samples = 1;
-
-    /// The members "camera" and "render" of a scene.
-    std::string text() const {
-        return quoted("camera") + "{" + quoted("position") + json(position) + "," + quoted("target") + json(target) + "," +
-               quoted("up") + json(up) + "," + quoted("vfov") + json(vfov) + "}," + quoted("render") + "{" + quoted("size") +
-               "[" + json(size) + "," + json(size) + "]," + quoted("maxDepth") + json(maxDepth) + "," + quoted("spp") +
-               json(samples) + "}";
-    }
-
-    /// Unit direction through the centre of a pixel.
-    dvec3 direction(uint32_t x, uint32_t y) const {
-        const dvec3 forward = glm::normalize(target - position), right = glm::normalize(glm::cross(forward, up));
-        const double half = std::tan(glm::radians(vfov) / 2);
-        const double u = ((x + 0.5) / size * 2 - 1) * half, v = ((y + 0.5) / size * 2 - 1) * half;
-        return glm::normalize(forward + u * right - v * glm::cross(right, forward));
-    }
-};
-
-std::string rectangle(const dvec3& origin, const dvec3& u, const dvec3& v, const std::string& material) {
-    return "{" + quoted("rectangle") + "{" + quoted("origin") + json(origin) + "," + quoted("u") + json(u) + "," + quoted("v") +
-           json(v) + "}," + quoted("material") + "\"" + material + "\"}";
-}
-
-std::string sphere(const dvec3& center, double radius, const std::string& material) {
-    return "{" + quoted("sphere") + "{" + quoted("center") + json(center) + "," + quoted("radius") + json(radius) + "}," +
-           quoted("material") + "\"" + material + "\"}";
-}
-
-/// The plane y = 0 out to 20 metres, its front upwards.
-std::string floorOf(const std::string& material) {
-    return rectangle({-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, material);
-}
-
-std::string glow(double radiance) {
-    return R"({"model":"pbr","baseColor":[0,0,0],"emissive":)" + json(dvec3(radiance)) + "}";
-}
-
-std::string glass(double ior) {
-    return R"({"model":"pbr","roughness":0,"transmission":1,"ior":)" + json(ior) + "}";
-}
-
-minirt_render_desc depthLimit(uint32_t maxDepth) {
-    minirt_render_desc desc = {};
-    desc.max_depth = maxDepth + 1;  // 0 means the scene's
-    return desc;
-}
-
-/// Compares every pixel for which `expected` has a value; the error is relative to it, or to `least` where it is smaller.
-void checkPixels(const Picture& picture, double tolerance,
-                 const std::function<std::optional<dvec3>(uint32_t, uint32_t)>& expected, double least = 1e-3) {
-    double worst = 0;
-    size_t compared = 0;
-    for (uint32_t y = 0; y < picture.height; ++y)
-        for (uint32_t x = 0; x < picture.width; ++x) {
-            const std::optional<dvec3> value = expected(x, y);
-            if (!value) continue;
-            compared++;
-            for (int k = 0; k < 3; ++k) {
-                const double error = std::abs(picture.at(x, y)[k] - (*value)[k]) / std::max(std::abs((*value)[k]), least);
-                INFO("pixel " << x << " " << y << " channel " << k << ": " << picture.at(x, y)[k] << " instead of "
-                              << (*value)[k]);
-                if (!(error <= tolerance) && worst <= tolerance) CHECK(error <= tolerance);
-                worst = std::max(worst, error);
-            }
-        }
-    MESSAGE("largest error " << worst << " of " << compared << " pixels");
-    CHECK(worst <= tolerance);
-    CHECK(compared * 4 > size_t{picture.width} * picture.height);
-}
 
 std::optional<dvec3> meetFloor(const dvec3& origin, const dvec3& direction) {
     const double t = -origin.y / direction.y;
@@ -119,22 +23,8 @@ std::optional<dvec3> meetFloor(const dvec3& origin, const dvec3& direction) {
     return origin + t * direction;
 }
 
-/// Unpolarised Fresnel reflectance at an interface; `eta` is the index behind over the one in front.
-double fresnel(double cosI, double eta) {
-    const double sin2T = (1 - cosI * cosI) / (eta * eta);
-    if (sin2T >= 1) return 1;
-    const double cosT = std::sqrt(1 - sin2T);
-    const double parallel = (eta * cosI - cosT) / (eta * cosI + cosT), perpendicular = (cosI - eta * cosT) / (cosI + eta * cosT);
-    return (parallel * parallel + perpendicular * perpendicular) / 2;
-}
-
 const char* kPlaster = R"({"model":"phong","diffuse":0.8,"color":[0.9,0.5,0.2]})";
 const dvec3 kPlasterWeight = dvec3(0.8) * dvec3(0.9, 0.5, 0.2);
-
-std::string pointLight(const dvec3& position, const dvec3& intensity, const std::string& falloff) {
-    return R"({"type":"point","position":)" + json(position) + R"(,"intensity":)" + json(intensity) + R"(,"falloff":")" +
-           falloff + "\"}";
-}
 
 }  // namespace
 
@@ -280,18 +170,6 @@ double slabRadiance(double ior, double cosI, double distance, uint32_t maxDepth,
         lateral += 2 * sinT / cosT;
     }
     return sum;
-}
-
-/// A closed box as an object; its file goes into `dir`.
-std::string box(const TemporaryDir& dir, const std::string& name, const dvec3& lo, const dvec3& hi, const std::string& material) {
-    std::string obj;
-    for (int i = 0; i < 8; ++i) {
-        const dvec3 p(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
-        obj += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
-    }
-    obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-    dir.write(name + ".obj", obj);
-    return R"({"mesh":")" + name + R"(.obj","material":")" + material + "\"}";
 }
 
 std::string slab(const TemporaryDir& dir) {
@@ -784,20 +662,6 @@ TEST_CASE("a region equals the same part of the whole picture bit for bit") {
             }
     }
 }
-
-namespace {
-
-Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, const std::string& text) {
-    minirtc::BakeOptions options;
-    options.scene = dir.write("all.json", text).string();
-    options.output = (dir.path() / "all.mrt").string();
-    options.allEffects = true;
-    options.quiet = true;
-    minirtc::bake(options);
-    return LoadedScene(gpu, options.output).render();
-}
-
-}  // namespace
 
 TEST_CASE("an opaque mirror with Fresnel is the same from both sides whatever else the kernel holds") {
     GpuContext gpu;
