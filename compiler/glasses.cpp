@@ -120,6 +120,7 @@ IndexCurve fit(const Glass& glass) {
 
 std::vector<std::string> glassNames() {
     std::vector<std::string> names;
+    names.reserve(kGlasses.size());
     for (const Glass& glass : kGlasses) names.emplace_back(glass.name);
     return names;
 }

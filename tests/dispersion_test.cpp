@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <glm/gtc/constants.hpp>
 
 #include "gems.hpp"
@@ -122,21 +123,29 @@ struct Bench {
     }
 };
 
-/// No ray is dropped for being weak.
-void followAllRays(const std::filesystem::path& path) {
+/// Changes a blob and makes its checksums right again. What the validator says of it.
+std::string change(const std::filesystem::path& path, const std::function<void(minirt_blob&)>& edit) {
     std::vector<minirt_vec4> rows(std::filesystem::file_size(path) / sizeof(minirt_vec4));
     auto* bytes = reinterpret_cast<uint8_t*>(rows.data());
     const size_t size = rows.size() * sizeof(minirt_vec4);
     std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(size));
     minirt_blob blob;
     REQUIRE(minirt_validate(bytes, size, &blob, nullptr) == MINIRT_OK);
-    const_cast<minirt_scene_desc*>(blob.scene)->throughput_cutoff = 0;
+    edit(blob);
     auto* header = reinterpret_cast<minirt_blob_header*>(bytes);
     auto* table = reinterpret_cast<minirt_blob_section*>(bytes + sizeof *header);
     for (uint32_t i = 0; i < header->section_count; ++i)
         table[i].checksum = minirt_checksum(bytes + table[i].offset, (table[i].size + 255) / 256 * 256);
     header->checksum = minirt_header_checksum(bytes, table[0].offset);
     std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+    minirt_validation validation;
+    minirt_validate(bytes, size, nullptr, &validation);
+    return validation.message;
+}
+
+/// No ray is dropped for being weak.
+void followAllRays(const std::filesystem::path& path) {
+    CHECK(change(path, [](minirt_blob& blob) { const_cast<minirt_scene_desc*>(blob.scene)->throughput_cutoff = 0; }).empty());
 }
 
 /// White all round a plate or a prism, that fill the picture.
@@ -301,6 +310,25 @@ TEST_CASE("without a medium that disperses the mode leaves no trace, and with on
     CHECK_FALSE(all.has(minirtc::Effect::spectral));
     CHECK(minirtc::compileKernel("whitted", none).glsl.find("#define EFFECT_DISPERSION") == std::string::npos);
     CHECK(minirtc::compileKernel("whitted", all).waits == 3);
+}
+
+TEST_CASE("a spectrum that is none is no part of a valid blob") {
+    const auto broken = [](const std::function<void(minirt_vec4*, minirt_kernel*)>& edit) {
+        const TemporaryDir dir;
+        dir.write("plate.obj", plateObj());
+        return change(bakeScene(dir, whiteScene("plate", R"("glass":"F2")", kSpectral)), [&](minirt_blob& blob) {
+            edit(const_cast<minirt_vec4*>(blob.spectrum), const_cast<minirt_kernel*>(blob.kernels));
+        });
+    };
+    CHECK(broken([](minirt_vec4*, minirt_kernel*) {}).empty());
+    CHECK(broken([](minirt_vec4* rows, minirt_kernel*) { rows[7].w = 0; }) == "entry 7 of the spectrum has no wavelength");
+    CHECK(broken([](minirt_vec4* rows, minirt_kernel*) { rows[7].y = INFINITY; }) ==
+          "the spectrum holds a number that is not finite");
+    const TemporaryDir dir;
+    dir.write("plate.obj", plateObj());
+    CHECK(change(bakeScene(dir, whiteScene("plate", R"("glass":"F2")", "")), [](minirt_blob& blob) {
+              const_cast<minirt_kernel*>(blob.kernels)->bindings |= 1u << MINIRT_BINDING_SPECTRUM;
+          }) == "kernel 0 reads a spectrum that is not there");
 }
 
 TEST_CASE("a gem 64 deep has numbers in every pixel and room for every ray, and cutting its work into pieces changes nothing") {
