@@ -122,6 +122,10 @@ typedef struct minirt_uvec4 {
 
 #define MINIRT_IMAGE_REPEAT_V 1u
 
+/* Section "SPECTRUM" has 2^BITS equally likely wavelengths, by which white light is sampled: a row each. rgb: colour, white in the mean
+   of all; w: 1 / wavelength^2 in 1/um^2. */
+#define MINIRT_SPECTRUM_BITS 10u
+
 /* Rows of 16 bytes of an element in its texel buffer. */
 #define MINIRT_PRIMITIVE_ROWS 3
 #define MINIRT_NORMAL_ROWS 3
@@ -167,9 +171,9 @@ struct minirt_image {
 struct minirt_medium {
     minirt_vec4 absorption; /* rgb: 1/m; w: share of the light taken away that comes back as the medium's own */
     minirt_vec4 ior;        /* rgb: index of refraction for each channel by itself; w: for all light */
-    minirt_vec4 iorCurve;   /* index of refraction x + y c + z c^2 + w c^3, with c = 1 / wavelength^2 in 1/um^2 */
-    minirt_vec4 boundsMin;  /* xyz: of the volume, scene space */
-    minirt_vec4 boundsMax;
+    minirt_vec4 iorCurve;   /* index of refraction at c = 1 / wavelength^2 in 1/um^2: terms in c^-1, 1, c, c^2 */
+    minirt_vec4 boundsMin;  /* xyz: of the volume, scene space; w: the curve's term in c^3 */
+    minirt_vec4 boundsMax;  /* w: in c^4 */
 };
 
 /* Pushed with each dispatch. */
@@ -361,13 +365,14 @@ typedef struct minirt_blob {
     const minirt_material* materials;
     const minirt_light* lights;
     const minirt_image* images;
-    const minirt_medium* media; /* one more than there are volumes, or none at all */
-    const uint16_t* texels;     /* 4 half floats each: linear rgba */
+    const minirt_medium* media;  /* one more than there are volumes, or none at all */
+    const minirt_vec4* spectrum; /* 2^MINIRT_SPECTRUM_BITS rows, or none */
+    const uint16_t* texels;      /* 4 half floats each: linear rgba */
     const minirt_kernel* kernels;
     const uint8_t* spirv;
     const char* explain; /* JSON: effects with their reasons, objects, sizes (docs/blob_format.md); not terminated */
     uint64_t node_count, primitive_count, normal_count, uv_count, material_count, light_count, image_count, medium_count,
-        texel_count, kernel_count, spirv_size, explain_size, total_size;
+        spectrum_count, texel_count, kernel_count, spirv_size, explain_size, total_size;
 } minirt_blob;
 
 typedef struct minirt_validation {
@@ -674,6 +679,7 @@ inline minirt_result findSections(BlobReader& r, const minirt_blob_section* tabl
     blob.lights = finder.find<minirt_light>("LIGHTS", sizeof(minirt_light), &blob.light_count, false);
     blob.images = finder.find<minirt_image>("IMAGES", sizeof(minirt_image), &blob.image_count, false);
     blob.media = finder.find<minirt_medium>("MEDIA", sizeof(minirt_medium), &blob.medium_count, false);
+    blob.spectrum = finder.find<minirt_vec4>("SPECTRUM", 16, &blob.spectrum_count, false);
     blob.texels = finder.find<uint16_t>("TEXELS", 8, &blob.texel_count, false);
     blob.kernels = finder.find<minirt_kernel>("KERNELS", sizeof(minirt_kernel), &blob.kernel_count, true);
     blob.spirv = finder.find<uint8_t>("SPIRV", 4, &blob.spirv_size, true);
@@ -804,6 +810,12 @@ inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
             !(m.absorption.x >= 0 && m.absorption.y >= 0 && m.absorption.z >= 0))
             return r.fail(MINIRT_ERROR_CORRUPT, "medium %llu is none", i);
     }
+    if (b.spectrum_count && b.spectrum_count != 1u << MINIRT_SPECTRUM_BITS)
+        return r.fail(MINIRT_ERROR_CORRUPT, "a spectrum of %llu wavelengths", b.spectrum_count);
+    if (firstNonFinite(b.spectrum, b.spectrum_count, 4, 4) != b.spectrum_count)
+        return r.fail(MINIRT_ERROR_CORRUPT, "the spectrum holds a number that is not finite");
+    for (uint64_t i = 0; i < b.spectrum_count; ++i)
+        if (b.spectrum[i].w <= 0) return r.fail(MINIRT_ERROR_CORRUPT, "entry %llu of the spectrum has no wavelength", i);
     uint32_t bad = 0;
     for (uint64_t i = 0; i < b.texel_count * 4; ++i) bad |= (b.texels[i] & 0x7c00u) == 0x7c00u ? 1u : 0u;
     return bad ? r.fail(MINIRT_ERROR_CORRUPT, "a texel is not finite") : MINIRT_OK;
@@ -821,6 +833,8 @@ inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
         if (magic != 0x07230203u) return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu is not SPIR-V", i);
         const bool lacksNormals = (k.bindings >> MINIRT_BINDING_NORMALS & 1u) && !b.normal_count;
         const bool lacksUvs = (k.bindings >> MINIRT_BINDING_UVS & 1u) && !b.uv_count;
+        if ((k.bindings >> MINIRT_BINDING_SPECTRUM & 1u) && !b.spectrum_count)
+            return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads a spectrum that is not there", i);
         if ((lacksNormals || lacksUvs) && (b.normal_count || b.uv_count))
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads corners that are not there", i);
         if ((k.bindings >> MINIRT_BINDING_MEDIA & 1u) && !b.medium_count)
@@ -1516,6 +1530,7 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
         {MINIRT_BINDING_IMAGES, b.images, b.image_count * sizeof *b.images},
         {MINIRT_BINDING_TEXELS, b.texels, b.texel_count * 8},
         {MINIRT_BINDING_MEDIA, b.media, b.medium_count * sizeof *b.media},
+        {MINIRT_BINDING_SPECTRUM, b.spectrum, b.spectrum_count * sizeof *b.spectrum},
     };
     Buffer staging;
     minirt_result result = MINIRT_OK;

@@ -6,6 +6,8 @@
 #include <glm/gtc/packing.hpp>
 #include <nlohmann/json.hpp>
 
+#include "spectrum.hpp"
+
 namespace minirtc {
 namespace {
 
@@ -100,7 +102,15 @@ minirt_medium encodeMedium(const Material& m) {
     minirt_medium out = {};
     out.absorption = vec4(m.medium.absorption, m.medium.inscatter);
     out.ior = {m.ior, m.ior, m.ior, m.ior};
-    out.iorCurve = {m.ior, 0, 0, 0};
+    out.iorCurve = {0, m.ior, 0, 0};
+    if (!m.medium.dispersion) return out;
+    const auto& [channels, curve] = *m.medium.dispersion;
+    const glm::vec3 rgb(channels);
+    out.ior = vec4(rgb, m.ior);
+    const auto term = [&c = curve](size_t k) { return static_cast<float>(c[k]); };
+    out.iorCurve = {term(0), term(1), term(2), term(3)};
+    out.boundsMin.w = term(4);
+    out.boundsMax.w = term(5);
     return out;
 }
 
@@ -111,8 +121,8 @@ std::vector<minirt_medium> encodeMedia(const Scene& scene, const Geometry& geome
         media.push_back(encodeMedium(scene.materials[geometry.bodies[volumes.order[v]].material]));
     const std::vector<Bounds> bounds = bodyBounds(geometry);
     for (uint32_t v = 0; v < volumes.count; ++v) {
-        media[v + 1].boundsMin = vec4(bounds[volumes.order[v]].min);
-        media[v + 1].boundsMax = vec4(bounds[volumes.order[v]].max);
+        media[v + 1].boundsMin = vec4(bounds[volumes.order[v]].min, media[v + 1].boundsMin.w);
+        media[v + 1].boundsMax = vec4(bounds[volumes.order[v]].max, media[v + 1].boundsMax.w);
     }
     return media;
 }
@@ -260,6 +270,13 @@ private:
     std::vector<Section> sections_;
 };
 
+void addSpectrum(BlobWriter& writer) {
+    std::vector<minirt_vec4> rows;
+    for (const Wavelength& wave : whiteLight(1u << MINIRT_SPECTRUM_BITS))
+        rows.push_back(vec4(glm::vec3(wave.rgb), static_cast<float>(1 / (wave.micrometres * wave.micrometres))));
+    writer.add("SPECTRUM", rows);
+}
+
 void addKernels(BlobWriter& writer, const std::vector<Kernel>& kernels) {
     std::vector<minirt_kernel> entries;
     std::vector<uint32_t> words;
@@ -323,6 +340,7 @@ std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
     const bool readsMedia =
         std::any_of(kernels.begin(), kernels.end(), [](const Kernel& k) { return k.bindings >> MINIRT_BINDING_MEDIA & 1u; });
     if (readsMedia) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
+    if (effects.has(Effect::spectral)) addSpectrum(writer);
     addImages(writer, scene, images);
     addKernels(writer, kernels);
     const std::string text = explain(baked);

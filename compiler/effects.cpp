@@ -25,6 +25,8 @@ constexpr std::array<EffectInfo, kEffectCount> kEffects = {{
     {"self_overlap", "EFFECT_SELF_OVERLAP", "no volume overlaps itself"},
     {"absorption", "EFFECT_ABSORPTION", "every medium is clear"},
     {"inscatter", "EFFECT_INSCATTER", "no medium has a colour of its own"},
+    {"dispersion", "EFFECT_DISPERSION", "no medium disperses light"},
+    {"spectral", "EFFECT_SPECTRAL", "light disperses as red, green and blue, or not at all"},
     {"transmissive_shadows", "EFFECT_TRANSMISSIVE_SHADOWS", "no light meets what transmits, or shadows are opaque"},
     {"float_nodes", "EFFECT_FLOAT_NODES", "16-bit boxes fit this scene"},
 }};
@@ -61,6 +63,10 @@ void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const s
     callFor(effects, Effect::absorption, boundsVolume(material) && nonZero(material.medium.absorption), reason);
     const bool glows = nonZero(material.medium.absorption) && material.medium.inscatter > 0;
     callFor(effects, Effect::inscatter, boundsVolume(material) && glows, reason);
+    const bool disperses = boundsVolume(material) && material.medium.dispersion;
+    callFor(effects, Effect::dispersion, disperses, reason);
+    callFor(effects, Effect::spectral, disperses && scene.render.dispersionMode == DispersionMode::spectral,
+            "\"dispersionMode\": \"spectral\"");
     callFor(effects, Effect::transmissiveShadows, lit && transmits && material.clearShadows, reason);
 }
 
@@ -108,7 +114,9 @@ void includeAll(EffectSet& effects) {
     for (size_t i = 0; i < kEffectCount; ++i) {
         // A layout or a method, not a cost that a scene could avoid.
         const auto effect = static_cast<Effect>(i);
-        if (effect == Effect::floatNodes || effect == Effect::parity || effect == Effect::selfOverlap) continue;
+        if (effect == Effect::floatNodes || effect == Effect::parity || effect == Effect::selfOverlap ||
+            effect == Effect::spectral)
+            continue;
         callFor(effects, static_cast<Effect>(i), true, "asked for by --all-effects");
     }
 }

@@ -29,6 +29,8 @@ enum class Effect {
     selfOverlap,
     absorption,
     inscatter,
+    dispersion,
+    spectral,
     transmissiveShadows,
     floatNodes,
     count
@@ -58,6 +60,8 @@ struct EffectSet {
     const EffectChoice& operator[](Effect effect) const { return choices[static_cast<size_t>(effect)]; }
     /// True when a hit can send on two rays, so that one must wait.
     bool splits() const { return has(Effect::refraction); }
+    /// How many rays one ray can become where media disperse.
+    uint32_t channels() const { return !has(Effect::dispersion) ? 1 : has(Effect::spectral) ? 4 : 3; }
 };
 
 /// Decides each effect from the scene: the materials that objects use, the lights, the background, the geometry, the volumes.

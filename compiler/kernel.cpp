@@ -21,14 +21,39 @@ constexpr auto kToolsEnvironment = SPV_ENV_VULKAN_1_1;
 
 /// The order in which the parts of a kernel build on each other.
 const std::vector<std::string> kParts = {
-    "common/language.glsl",        "common/neighbours.glsl", "common/numerics.glsl",  "common/pixel.glsl",
-    "common/patterns.glsl",        "bsdf/optics.glsl",       "bsdf/medium.glsl",      "media/volumes.glsl",
-    "traverse/box.glsl",           "traverse/triangle.glsl", "traverse/sphere.glsl",  "layout",
-    "common/frame.glsl",           "common/fetch.glsl",      "traverse/nodes.glsl",   "effects/spheres.glsl",
-    "traverse/traverse.glsl",      "common/suspend.glsl",    "effects/images.glsl",   "effects/background.glsl",
-    "effects/smooth_normals.glsl", "effects/textures.glsl",  "common/materials.glsl", "effects/checker.glsl",
-    "effects/nesting.glsl",        "effects/media.glsl",     "common/surface.glsl",   "effects/lights.glsl",
-    "effects/scatter.glsl",        "effects/shadows.glsl",   "effects/emission.glsl",
+    "common/language.glsl",
+    "common/neighbours.glsl",
+    "common/numerics.glsl",
+    "common/pixel.glsl",
+    "common/patterns.glsl",
+    "bsdf/optics.glsl",
+    "bsdf/medium.glsl",
+    "bsdf/dispersion.glsl",
+    "media/volumes.glsl",
+    "traverse/box.glsl",
+    "traverse/triangle.glsl",
+    "traverse/sphere.glsl",
+    "layout",
+    "common/frame.glsl",
+    "common/fetch.glsl",
+    "traverse/nodes.glsl",
+    "effects/spheres.glsl",
+    "traverse/traverse.glsl",
+    "common/suspend.glsl",
+    "effects/images.glsl",
+    "effects/background.glsl",
+    "effects/smooth_normals.glsl",
+    "effects/textures.glsl",
+    "common/materials.glsl",
+    "effects/checker.glsl",
+    "effects/nesting.glsl",
+    "effects/media.glsl",
+    "effects/dispersion.glsl",
+    "common/surface.glsl",
+    "effects/lights.glsl",
+    "effects/scatter.glsl",
+    "effects/shadows.glsl",
+    "effects/emission.glsl",
 };
 
 const std::string kHeader = R"(#version 460
@@ -124,7 +149,7 @@ Kernel compileKernel(const std::string& name, const EffectSet& effects) {
     Compiled compiled = compileGlsl(name, kernel.glsl);
     kernel.bindings = compiled.bindings;
     kernel.spirv = optimise(name, compiled.spirv);
-    kernel.waits = effects.splits() ? 1 : 0;
+    kernel.waits = effects.splits() ? effects.channels() : 0;  // one a level of depth, and a dispersed ray's further channels
     return kernel;
 }
 

@@ -53,10 +53,20 @@ struct Light {
     bool inverseSquare = true;       // false: "falloff":"none", the seeds' lights
 };
 
+/// Index of refraction as a sum of powers of c = 1 / wavelength^2 in 1/um^2: of c^-1, 1, c, c^2, c^3 and c^4.
+using IndexCurve = std::array<double, 6>;
+
+/// A medium's index of refraction where it depends on the wavelength.
+struct Dispersion {
+    glm::dvec3 channels{1};  // red, green and blue by themselves
+    IndexCurve curve{};
+};
+
 /// The inside of an object that transmits.
 struct Medium {
-    glm::vec3 absorption{0};  // sigma in 1/m; light keeps exp(-sigma * d) of itself over a distance d
-    float inscatter = 0;      // 0 to 1: share of the light taken away that comes back as the medium's own
+    glm::vec3 absorption{0};               // sigma in 1/m; light keeps exp(-sigma * d) of itself over a distance d
+    float inscatter = 0;                   // 0 to 1: share of the light taken away that comes back as the medium's own
+    std::optional<Dispersion> dispersion;  // absent: `ior` for all wavelengths
 };
 
 /// What light does at a surface, in the weights that the Whitted kernel uses. `phong`, `pbr` and .mtl materials all become this.
@@ -144,6 +154,9 @@ enum class Nesting { ordered, parity };
 /// Whether shadow rays pass through what transmits: all of it, none of it, or physical glass only.
 enum class Shadows { byModel, transmissive, opaque };
 
+/// How light of different wavelengths parts where it refracts: as three channels with an index each, or as wavelengths, some a sample.
+enum class DispersionMode { rgb, spectral };
+
 enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2 };
 
 struct RenderDefaults {
@@ -153,6 +166,7 @@ struct RenderDefaults {
     uint32_t width = 1024;
     uint32_t height = 768;
     Shadows shadows = Shadows::byModel;
+    DispersionMode dispersionMode = DispersionMode::rgb;
 };
 
 struct Scene {

@@ -82,8 +82,8 @@ RenderDefaults readRender(SceneFile& file, const JsonValue& value) {
     object.word("integrator", "whitted", {"whitted"}, {"path", "wavefront"});
     const std::string shadows = object.word("shadows", "", {"transmissive", "opaque"});
     if (!shadows.empty()) render.shadows = shadows == "opaque" ? Shadows::opaque : Shadows::transmissive;
-    object.word("dispersionMode", "rgb", {"rgb", "spectral"});
-    if (object.has("dispersionMode")) object.warnIgnored("dispersionMode", "all wavelengths refract by 'ior'");
+    const bool spectral = object.word("dispersionMode", "rgb", {"rgb", "spectral"}) == "spectral";
+    render.dispersionMode = spectral ? DispersionMode::spectral : DispersionMode::rgb;
     if (object.has("integrators")) object.warnIgnored("integrators", "there is one integrator");
     render.maxDepth = object.integer("maxDepth", render.maxDepth, 0, 255);
     render.spp = object.integer("spp", render.spp, 1, 65536);

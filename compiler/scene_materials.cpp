@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "glasses.hpp"
 #include "text_file.hpp"
 
 namespace minirtc {
@@ -41,7 +42,6 @@ void rejectUnsupported(const JsonObject& object, double metallic, double roughne
     const std::string later = " is not in this version";
     object.word("alphaMode", "opaque", {"opaque"}, {"mask", "blend"});
     if (object.has("normalTexture")) object.fail("normalTexture", "'normalTexture'" + later, "leave it out");
-    if (object.has("glass")) object.fail("glass", "'glass'" + later, "give 'ior' and 'transmission'");
     if (metallic > 0 && transmission > 0)
         object.fail("transmission", "a material cannot be metallic and transmissive", "set one of them to 0");
     if (transmission > 0 && roughness > 0)
@@ -65,8 +65,31 @@ Medium readMedium(const JsonObject& object) {
     Medium medium;
     for (int i = 0; i < 3; ++i) medium.absorption[i] = absorptionOf(color[i], distance);
     medium.inscatter = static_cast<float>(object.number("inscatter", 0, kZeroToOne));
-    if (object.number("dispersion", 0, kNotNegative) > 0) object.warnIgnored("dispersion", "all wavelengths refract by 'ior'");
     return medium;
+}
+
+/// 'glass', or 'ior' and 'dispersion'.
+void readIndex(const JsonObject& object, Material& material) {
+    const double ior = object.number("ior", 1.5, kPositive);
+    const double dispersion = object.number("dispersion", 0, kNotNegative);
+    material.ior = static_cast<float>(ior);
+    if (object.has("glass")) {
+        for (const char* key : {"ior", "dispersion"})
+            if (object.has(key))
+                object.fail(key, "'" + std::string(key) + "' stands beside 'glass', which brings its own", "keep one of them");
+        const std::string& name = object.text("glass");
+        const Glass* glass = findGlass(name);
+        if (!glass) object.fail("glass", "there is no glass " + inQuotes(name), suggestGlass(name));
+        material.medium.dispersion = disperse(*glass);
+        material.ior = static_cast<float>(indexOf(*glass, kLineD));
+    } else if (dispersion > 0 && ior != 1) {
+        const Dispersion d = disperse(ior, dispersion);
+        const double ends = std::min(indexOn(d.curve, kVisibleFrom), indexOn(d.curve, kVisibleTo));
+        if (!(std::min({ends, d.channels.r, d.channels.b}) > 0))
+            object.fail("dispersion", "with this 'dispersion' the index of refraction is not over 0 for all visible light",
+                        "glasses have 0.2 to 1: it is 20 over the Abbe number");
+        material.medium.dispersion = d;
+    }
 }
 
 Material readPbr(SceneFile& file, const JsonValue& value, const std::string& what, Scene& scene) {
@@ -93,7 +116,7 @@ Material readPbr(SceneFile& file, const JsonValue& value, const std::string& wha
     material.reflect = metallic > 0 ? baseColor * static_cast<float>(metallic) : glm::vec3(static_cast<float>(transmission));
     material.transmit = baseColor * static_cast<float>(transmission);
     material.fresnel = transmission > 0;
-    material.ior = static_cast<float>(object.number("ior", 1.5, kPositive));
+    readIndex(object, material);
     material.emission = object.color("emissive", glm::vec3(0), kNotNegative);
     return material;
 }

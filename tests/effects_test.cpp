@@ -216,7 +216,9 @@ TEST_CASE("asking for all effects adds those missing and keeps the reasons of th
     CHECK_FALSE(effects.has(Effect::floatNodes));  // a layout, not an addition
     CHECK_FALSE(effects.has(Effect::parity));      // a method
     CHECK_FALSE(effects.has(Effect::selfOverlap));
-    for (const Effect other : {Effect::floatNodes, Effect::parity, Effect::selfOverlap}) effects[other].included = true;
+    CHECK_FALSE(effects.has(Effect::spectral));
+    for (const Effect other : {Effect::floatNodes, Effect::parity, Effect::selfOverlap, Effect::spectral})
+        effects[other].included = true;
     CHECK(
         std::all_of(effects.choices.begin(), effects.choices.end(), [](const EffectChoice& choice) { return choice.included; }));
 }

@@ -36,6 +36,7 @@ using namespace shader_names;
 using real = float;
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
+using vec4 = glm::vec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 // clang-format off
 #include "../shaders/common/neighbours.glsl"
@@ -44,6 +45,7 @@ constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
 #include "../shaders/bsdf/medium.glsl"
+#include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
@@ -55,6 +57,7 @@ using namespace shader_names;
 using real = double;
 using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 inline real nextUp(real x) {
     return std::nextafter(x, std::numeric_limits<real>::infinity());
@@ -68,6 +71,7 @@ inline real nextDown(real x) {
 #include "../shaders/common/patterns.glsl"
 #include "../shaders/bsdf/optics.glsl"
 #include "../shaders/bsdf/medium.glsl"
+#include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"

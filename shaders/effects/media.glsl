@@ -1,6 +1,6 @@
-// Effects `absorption`, `inscatter`, and the index of refraction for `nesting`. Identities: clear media; the material's own index.
+// Effects `absorption`, `inscatter`. Identities: clear media.
 
-#if defined(EFFECT_NESTING) || defined(EFFECT_ABSORPTION) || defined(EFFECT_INSCATTER)
+#if defined(EFFECT_NESTING) || defined(EFFECT_ABSORPTION) || defined(EFFECT_INSCATTER) || defined(EFFECT_DISPERSION)
 
 layout(binding = MINIRT_BINDING_MEDIA) uniform usamplerBuffer mediumRows;
 
@@ -35,22 +35,5 @@ vec3 inscattered(uint medium, float distance) {
 #else
 
 vec3 inscattered(uint medium, float distance) { return vec3(0.0); }
-
-#endif
-
-/// Index of refraction behind the surface over the one in front.
-#ifdef EFFECT_NESTING
-
-float iorRatio(Boundary boundary, minirt_material material, bool entering) {
-    float from = mediumRow(boundary.from, 1).w;
-    return (boundary.isVolume ? mediumRow(boundary.to, 1).w : material.specular.w) / from;
-}
-
-#else
-
-float iorRatio(Boundary boundary, minirt_material material, bool entering) {
-    // What is opaque mirrors alike from both sides.
-    return entering || !boundary.isVolume ? material.specular.w : 1.0 / material.specular.w;
-}
 
 #endif

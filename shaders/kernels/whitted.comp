@@ -8,6 +8,7 @@ struct Segment {
     vec3 direction;
     vec3 throughput;
     uint depth;
+    uint channel;        // of its light; 0: all of it
     VolumeList volumes;  // that it is in
 };
 
@@ -38,7 +39,7 @@ void putSegment(uint slot, inout uint word, Segment segment) {
     putVec3(slot, word, segment.origin);
     putVec3(slot, word, segment.direction);
     putVec3(slot, word, segment.throughput);
-    putWord(slot, word, segment.depth);
+    putWord(slot, word, packDepth(segment.depth, segment.channel));
     putVolumes(slot, word, segment.volumes);
 }
 
@@ -47,7 +48,9 @@ Segment takeSegment(uint slot, inout uint word) {
     segment.origin = takeVec3(slot, word);
     segment.direction = takeVec3(slot, word);
     segment.throughput = takeVec3(slot, word);
-    segment.depth = takeWord(slot, word);
+    uint depth = takeWord(slot, word);
+    segment.depth = depthIn(depth);
+    segment.channel = channelIn(depth);
     segment.volumes = takeVolumes(slot, word);
     return segment;
 }
@@ -90,14 +93,14 @@ Traversal traceSegment(inout TreeWalk walk, Segment segment) {
 
 /// The ray of a pixel. Where the camera may be in a volume, another one comes first: to the camera, from outside of the scene.
 Traversal traceCamera(inout TreeWalk walk, uvec2 pixel, VolumeList volumes) {
-    return traceSegment(walk, Segment(frame.position.xyz, cameraDirection(pixel, frame.sampling.x), vec3(1.0), 0u, volumes));
+    return traceSegment(walk, Segment(frame.position.xyz, cameraDirection(pixel, frame.sampling.x), vec3(1.0), 0u, 0u, volumes));
 }
 
 /// The direction is that of no symmetry, so that it meets few edges of what people model.
 Traversal traceToCamera(inout TreeWalk walk) {
     const vec3 outwards = vec3(0.3713907, 0.7427814, 0.5570860);
     float distance = 2.0 * length(max(abs(scene.boundsMin.xyz - frame.position.xyz), abs(scene.boundsMax.xyz - frame.position.xyz)));
-    Segment segment = Segment(frame.position.xyz + distance * outwards, -outwards, vec3(0.0), 0u, noVolumes());
+    Segment segment = Segment(frame.position.xyz + distance * outwards, -outwards, vec3(0.0), 0u, 0u, noVolumes());
     walk.phase = PHASE_CAMERA;
     walk.segment = segment;
     return beginTraversal(segment.origin, segment.direction, distance, false);
@@ -109,20 +112,38 @@ struct Encounter {
     minirt_material material;
     vec3 ng;  // geometric and shading normal on the side of the ray
     vec3 n;
+    bool entering;
     Boundary boundary;
     float eta;  // index of refraction behind the surface over the one in front
 };
 
-Encounter encounterAt(vec3 origin, vec3 direction, uint slot, float t, VolumeList volumes) {
+Encounter encounterAt(vec3 origin, vec3 direction, uint slot, float t, VolumeList volumes, uint channel) {
     Encounter e;
     e.surface = surfaceAt(origin, direction, slot, t);
     e.material = fetchMaterial(e.surface.material);
-    bool entering = dot(direction, e.surface.ng) < 0.0;
-    e.ng = entering ? e.surface.ng : -e.surface.ng;
-    e.n = entering ? e.surface.n : -e.surface.n;
-    e.boundary = boundaryAt(volumes, bodyOf(slot), entering);
-    e.eta = iorRatio(e.boundary, e.material, entering);
+    e.entering = dot(direction, e.surface.ng) < 0.0;
+    e.ng = e.entering ? e.surface.ng : -e.surface.ng;
+    e.n = e.entering ? e.surface.n : -e.surface.n;
+    e.boundary = boundaryAt(volumes, bodyOf(slot), e.entering);
+    e.eta = iorRatio(e.boundary, e.material, e.entering, channel);
     return e;
+}
+
+/// All light together that meets a medium which disperses goes on as one of its channels. The others wait, to come here by themselves.
+void divideLight(PixelTask task, inout TreeWalk walk, inout Encounter e) {
+    if (walk.segment.channel != 0u || !dividesLight(e.boundary)) return;
+    Segment whole = walk.segment;
+    UNROLL for (int k = int(CHANNELS) - 1; k >= 0; k--) {
+        walk.segment.channel = channelAt(uint(k), task.pixel);
+        walk.segment.throughput = whole.throughput * channelShare(walk.segment.channel);
+        bool room = walk.waiting < frame.size.z;
+        if (k > 0 && room) {
+            uint word = waitingWord(walk.waiting++);
+            putSegment(task.slot, word, walk.segment);
+        }
+        if (k > 0 && !room) atomicAdd(counters.segment_overflow, 1u);
+    }
+    e.eta = iorRatio(e.boundary, e.material, e.entering, walk.segment.channel);
 }
 
 /// Light that adds less than this share of itself is not worth a shadow ray: a unit in the last place of what other lights add.
@@ -151,7 +172,7 @@ Traversal traceShadow(inout TreeWalk walk, inout uint steps, Encounter e) {
     return ray;
 }
 
-bool carriesOn(vec3 weight) { return maxComponent(weight) > frame.position.w; }
+bool carriesOn(vec3 weight) { return importance(weight) > frame.position.w; }
 
 /// The shadow ray goes on behind a clear surface, tinted; it ends there when too little of its light is left.
 Traversal passShadow(inout TreeWalk walk, Traversal ray, Encounter e) {
@@ -161,7 +182,7 @@ Traversal passShadow(inout TreeWalk walk, Traversal ray, Encounter e) {
     walk.shadowVolumes = e.boundary.transmitted;
     LightSample light = sampleLight(walk.light - 1u, e.surface.p);
     Traversal onwards = beginTraversal(offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng), ray.direction, light.distance, false);
-    if (maxComponent(walk.unshadowed) <= 0.0) onwards.node = NODE_NONE;
+    if (importance(walk.unshadowed) <= 0.0) onwards.node = NODE_NONE;
     return onwards;
 }
 
@@ -186,9 +207,9 @@ Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Encounter e) {
     bool refracts = deeper && carriesOn(refractThroughput);
     vec3 above = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, e.ng);
     vec3 below = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng);
-    Segment reflected = Segment(above, branches.reflected, reflectThroughput, from.depth + 1u, e.boundary.reflected);
+    Segment reflected = Segment(above, branches.reflected, reflectThroughput, from.depth + 1u, from.channel, e.boundary.reflected);
     Segment refracted = Segment(below, straight ? from.direction : branches.refracted, refractThroughput,
-                                straight ? from.depth : from.depth + 1u, e.boundary.transmitted);
+                                straight ? from.depth : from.depth + 1u, from.channel, e.boundary.transmitted);
     bool room = walk.waiting < frame.size.z;
     if (reflects && refracts && room) {
         uint word = waitingWord(walk.waiting++);
@@ -219,7 +240,7 @@ void arrive(inout TreeWalk walk, bool hit, Encounter e) {
 void main() {
     PixelTask task = pixelTask();
     if (!task.valid) return;
-    Segment none = Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u, noVolumes());
+    Segment none = Segment(vec3(0.0), vec3(0.0), vec3(0.0), 0u, 0u, noVolumes());
     TreeWalk walk = TreeWalk(PHASE_DONE, 0u, none, MINIRT_NONE, 0.0, 0u, vec3(0.0), noVolumes(), vec3(0.0));
     Traversal ray;
     if (frame.sampling.w != 0u) {
@@ -248,7 +269,8 @@ void main() {
         bool hit = passing || (!toCamera && walk.hitSlot != MINIRT_NONE);
         uint slot = passing ? ray.slot : walk.hitSlot;
         Encounter e = encounterAt(passing ? ray.origin : walk.segment.origin, passing ? ray.direction : walk.segment.direction,
-                                  hit ? slot : 0u, passing ? ray.t : walk.hitT, clear ? walk.shadowVolumes : walk.segment.volumes);
+                                  hit ? slot : 0u, passing ? ray.t : walk.hitT, clear ? walk.shadowVolumes : walk.segment.volumes, walk.segment.channel);
+        if (arrived && hit) divideLight(task, walk, e);
         if (arrived) arrive(walk, hit, e);
         if (walk.phase == PHASE_SHADOW && !stopped) walk.radiance += walk.unshadowed * transmittance(mediumAround(walk.shadowVolumes), ray.t);
         if (clear) {
