@@ -440,6 +440,20 @@ TEST_CASE("a list that is too short for the nest is counted and told to the host
     minirt_unload(scene);
 }
 
+TEST_CASE("a camera in as many volumes as a ray can be in overflows nothing") {
+    GpuContext gpu;
+    if (!gpu) return;
+    // Wherever the hierarchy puts them: the first primitive is the other ball's in one of these.
+    for (const double x : {-5.0, 5.0}) {
+        CAPTURE(x);
+        const View view{{x, 0, 0.5}, {x, 0, -1}, 40, 8};
+        const std::string balls = sphere({-5, 0, 0}, 1, "m") + "," + sphere({5, 0, 0}, 1, "m") + ",";
+        for (const double content : {-5.0, 5.0})
+            renderScene(gpu, underWhite(view, R"("d":{"model":"phong"},"m":)" + filled(1.5, {0.5, 0.5, 0.5}, 1),
+                                        balls + sphere({content, 0, -0.5}, 0.1, "d")));  // fails where it counts an overflow
+    }
+}
+
 TEST_CASE("kernels with every effect draw the same bits as those with what the media call for") {
     GpuContext gpu;
     if (!gpu) return;

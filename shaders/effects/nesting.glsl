@@ -5,6 +5,7 @@
 struct Boundary {
     bool isVolume;  // of a volume; otherwise both media are the one in front
     bool skipped;   // hidden in another volume: the ray goes straight on
+    bool overflow;  // skipped because the list is full
     uint from;      // medium that the ray comes through
     uint to;        // medium behind
     VolumeList reflected;    // volumes of rays that stay in front
@@ -47,10 +48,9 @@ Crossing crossVolume(VolumeList list, uint medium, bool entering) {
 Boundary boundaryAt(VolumeList list, uint body, bool entering) {
     bool isVolume = body < scene.counts.z;
     Crossing crossing = crossVolume(list, body + 1u, entering);
-    if (isVolume && crossing.overflow) atomicAdd(counters.volume_overflow, 1u);
     uint around = mediumAround(list);
-    return Boundary(isVolume, isVolume && crossing.from == crossing.to, isVolume ? crossing.from : around, isVolume ? crossing.to : around,
-                    isVolume ? crossing.reflected : list, isVolume ? crossing.transmitted : list);
+    return Boundary(isVolume, isVolume && crossing.from == crossing.to, isVolume && crossing.overflow, isVolume ? crossing.from : around,
+                    isVolume ? crossing.to : around, isVolume ? crossing.reflected : list, isVolume ? crossing.transmitted : list);
 }
 
 void putVolumes(uint slot, inout uint word, VolumeList list) {
@@ -73,7 +73,7 @@ uint mediumAround(VolumeList list) { return 0u; }
 Boundary boundaryAt(VolumeList list, uint body, bool entering) {
     bool isVolume = body < scene.counts.z;
     uint inside = isVolume ? body + 1u : 0u;
-    return Boundary(isVolume, false, entering ? 0u : inside, entering ? inside : 0u, list, list);
+    return Boundary(isVolume, false, false, entering ? 0u : inside, entering ? inside : 0u, list, list);
 }
 
 void putVolumes(uint slot, inout uint word, VolumeList list) {}

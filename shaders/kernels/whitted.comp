@@ -270,6 +270,7 @@ void main() {
         uint slot = passing ? ray.slot : walk.hitSlot;
         Encounter e = encounterAt(passing ? ray.origin : walk.segment.origin, passing ? ray.direction : walk.segment.direction,
                                   hit ? slot : 0u, passing ? ray.t : walk.hitT, clear ? walk.shadowVolumes : walk.segment.volumes, walk.segment.channel);
+        if (hit && e.boundary.overflow) atomicAdd(counters.volume_overflow, 1u);
         if (arrived && hit) divideLight(task, walk, e);
         if (arrived) arrive(walk, hit, e);
         if (walk.phase == PHASE_SHADOW && !stopped) walk.radiance += walk.unshadowed * transmittance(mediumAround(walk.shadowVolumes), ray.t);
