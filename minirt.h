@@ -141,7 +141,7 @@ struct minirt_scene_rows {
     minirt_vec4 gridScale;  /* xyz: metres between planes */
     minirt_vec4 gridPlanes; /* xyz: the largest plane number in use */
     minirt_vec4 background; /* rgb: radiance, or the factor of the image; w: rotation of the image in turns */
-    minirt_vec4 boundsMin;  /* xyz: of everything, scene space */
+    minirt_vec4 boundsMin;  /* xyz: of all volumes, scene space */
     minirt_vec4 boundsMax;
     minirt_uvec4 counts; /* x: lights, y: index of the background image or MINIRT_NONE, z: volumes */
 };

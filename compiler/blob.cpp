@@ -147,6 +147,18 @@ std::vector<minirt_vec4> encodePrimitives(const Geometry& geometry, const Bvh& b
     return rows;
 }
 
+/// Of all of them. A ray that starts near them loses less of its place to rounding than one from outside of the scene.
+Bounds volumeBounds(const Geometry& geometry, const Volumes& volumes) {
+    if (volumes.count == 0) return {glm::vec3(0), glm::vec3(0)};
+    const std::vector<Bounds> bodies = bodyBounds(geometry);
+    Bounds all;
+    for (uint32_t v = 0; v < volumes.count; ++v) {
+        const Bounds& one = bodies[volumes.order[v]];
+        all.min = glm::min(all.min, one.min), all.max = glm::max(all.max, one.max);
+    }
+    return all;
+}
+
 minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const EncodedNodes& nodes, const Volumes& volumes,
                              const ImagePlan& images) {
     minirt_scene_rows rows = {};
@@ -156,8 +168,9 @@ minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const
     const bool image = scene.background.image != kNone;
     rows.background =
         vec4(image ? glm::vec3(scene.background.strength) : scene.background.color, scene.background.rotation / 360.0f);
-    rows.boundsMin = vec4(geometry.boundsMin);
-    rows.boundsMax = vec4(geometry.boundsMax);
+    const Bounds bounds = volumeBounds(geometry, volumes);
+    rows.boundsMin = vec4(bounds.min);
+    rows.boundsMax = vec4(bounds.max);
     rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.background, volumes.count, 0};
     return rows;
 }

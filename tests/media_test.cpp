@@ -454,6 +454,25 @@ TEST_CASE("a camera in as many volumes as a ray can be in overflows nothing") {
     }
 }
 
+TEST_CASE("a camera right behind the wall of a tank is in its water however far the ground reaches") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const TemporaryDir dir;
+    constexpr double kBehind = 0.002;
+    const View view{{0.5 - kBehind, 0, 0}, {0, 0, 0}, 5, 8};
+    const double expected = std::pow(0.1, 0.5 - kBehind);
+    for (const double reach : {20.0, 1e4, 1e5, 1e6}) {
+        CAPTURE(reach);
+        const Picture picture = renderScene(
+            gpu, dir,
+            underWhite(view, R"("lamp":)" + glow(1) + R"(,"ground":{"model":"phong"},"water":)" + filled(1.33, dvec3(0.1), 1),
+                       rectangle({-reach, -1, -reach}, {0, 0, 2 * reach}, {2 * reach, 0, 0}, "ground") + "," +
+                           box(dir, "lamp", {-0.3, -0.3, -0.3}, {0, 0.3, 0.3}, "lamp") + "," +
+                           box(dir, "water", {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, "water")));
+        checkPixels(picture, 2e-3, [&](uint32_t, uint32_t) { return dvec3(expected); });
+    }
+}
+
 TEST_CASE("kernels with every effect draw the same bits as those with what the media call for") {
     GpuContext gpu;
     if (!gpu) return;

@@ -16,7 +16,7 @@ struct Segment {
 #define PHASE_DONE 0u
 #define PHASE_CLOSEST 1u
 #define PHASE_SHADOW 2u
-#define PHASE_CAMERA 3u  // on its way to the camera from outside of the scene, to find out which volumes that is in
+#define PHASE_CAMERA 3u  // on its way to the camera from outside of all volumes, to find out which volumes that is in
 
 /// A pixel's progress through its tree. Its waiting segments are in the state buffer.
 struct TreeWalk {
@@ -91,7 +91,7 @@ Traversal traceSegment(inout TreeWalk walk, Segment segment) {
     return beginTraversal(segment.origin, segment.direction, MINIRT_RAY_END, false);
 }
 
-/// The ray of a pixel. Where the camera may be in a volume, another one comes first: to the camera, from outside of the scene.
+/// The ray of a pixel. Where the camera may be in a volume, another one comes first: to the camera, from outside of all volumes.
 Traversal traceCamera(inout TreeWalk walk, uvec2 pixel, VolumeList volumes) {
     return traceSegment(walk, Segment(frame.position.xyz, cameraDirection(pixel, frame.sampling.x), vec3(1.0), 0u, 0u, volumes));
 }
