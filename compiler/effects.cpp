@@ -78,6 +78,8 @@ void addVolumes(EffectSet& effects, const Scene& scene, const Volumes& volumes) 
     callFor(effects, Effect::nesting, !volumes.selfOverlap.empty(), volumes.selfOverlap);
     const bool nests = effects.has(Effect::nesting);
     callFor(effects, Effect::selfOverlap, nests && !volumes.selfOverlap.empty(), volumes.selfOverlap);
+    const bool hides = !volumes.overlap.empty() || !volumes.selfOverlap.empty();
+    callFor(effects, Effect::transmissiveShadows, hides && !volumes.lightInside.empty(), volumes.lightInside);
     callFor(effects, Effect::parity, nests && scene.nesting == Nesting::parity, "\"nesting\": \"parity\"");
     effects.volumeCapacity = std::max(volumes.capacity, 1u);
 }

@@ -223,7 +223,7 @@ private:
             for (const Volume& volume : volumes_) {
                 if (!result_.content.empty()) return;
                 if (volume.surface().windingAt(position).value_or(1) > 0)
-                    result_.content = "light " + std::to_string(i) + " in " + bodyOf(volume).name;
+                    result_.content = result_.lightInside = "light " + std::to_string(i) + " in " + bodyOf(volume).name;
             }
         }
     }

@@ -22,6 +22,7 @@ struct Volumes {
     // What a kernel must know of them, with the bodies' names; empty where it need not:
     std::string overlap;      // two volumes share space: "ice.obj in water.obj"
     std::string content;      // something that is no volume, or a light, lies in a volume: "fish.obj in water.obj"
+    std::string lightInside;  // a light lies in a volume, so that hidden surfaces may stand between it and what it lights
     std::string selfOverlap;  // a volume that folds over itself, so that entries and exits must be counted
 };
 

@@ -473,6 +473,50 @@ TEST_CASE("a camera right behind the wall of a tank is in its water however far 
     }
 }
 
+TEST_CASE("a checker of thin sheets casts the shadows of its cells") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 1, 3}, {0, 0, 0}, 20, 16};
+    const double clear = 1 - 2 * 0.04 / 1.04;  // both sides of a sheet, upright
+    const auto scene = [&](const std::string& b) {
+        return underWhite(
+            view,
+            R"("floor":{"model":"phong","diffuse":1},"clear":{"model":"pbr","roughness":0,"transmission":1,"thin":true},)"
+            R"("opaque":{"model":"phong"},"checker":{"model":"checker","a":"clear","b":")" +
+                b + R"(","scale":100})",
+            floorOf("floor") + "," + rectangle({-20, 3, -20}, {0, 0, 40}, {40, 0, 0}, "checker"),
+            R"(,"lights":[{"type":"directional","direction":[0,-1,0],"irradiance":[1,1,1]}])");
+    };
+    checkPixels(renderScene(gpu, scene("clear")), 1e-5, [&](uint32_t, uint32_t) { return dvec3(clear); });
+    // A cell ends at x = 0 and at z = 0.
+    checkPixels(renderScene(gpu, scene("opaque")), 1e-5, [&](uint32_t x, uint32_t y) {
+        const dvec3 d = view.direction(x, y), p = view.position - view.position.y / d.y * d;
+        return dvec3((p.x > 0) == (p.z > 0) ? clear : 0.0);
+    });
+}
+
+TEST_CASE("a hidden surface casts no shadow, whatever its material") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const TemporaryDir dir;
+    const View view{{0, 1, 3}, {0, 0, 0}, 20, 16};
+    const std::string phong = R"({"model":"phong","diffuse":0,"refract":1,"ior":1.2})";
+    for (const std::string& room : {glass(1.5), phong}) {  // what shadow rays pass, and what they do not
+        CAPTURE(room);
+        const auto scene = [&](const std::string& hidden) {
+            return underWhite(view, R"("floor":{"model":"phong","diffuse":1},"room":)" + room + R"(,"hidden":)" + phong,
+                              rectangle({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, "floor") +
+                                  R"(,{"mesh":"room.obj","material":"room","priority":1})" + hidden,
+                              R"(,"lights":[)" + pointLight({0, 2, 0}, dvec3(4), "inverse-square") + "]");
+        };
+        box(dir, "room", {-5, -5, -5}, {5, 5, 5}, "room");
+        const std::string block = "," + box(dir, "block", {-1, 1, -1}, {1, 1.5, 0.5}, "hidden");
+        const Picture expected = renderScene(gpu, dir, scene("")), picture = renderScene(gpu, dir, scene(block));
+        checkPixels(picture, 1e-5, [&](uint32_t x, uint32_t y) { return dvec3(expected.at(x, y)); });
+        CHECK(renderWithAllEffects(gpu, dir, scene(block)) == picture);
+    }
+}
+
 TEST_CASE("kernels with every effect draw the same bits as those with what the media call for") {
     GpuContext gpu;
     if (!gpu) return;

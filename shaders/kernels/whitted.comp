@@ -174,7 +174,7 @@ Traversal traceShadow(inout TreeWalk walk, inout uint steps, Encounter e) {
 
 bool carriesOn(vec3 weight) { return importance(weight) > frame.position.w; }
 
-/// The shadow ray goes on behind a clear surface, tinted; it ends there when too little of its light is left.
+/// The shadow ray goes on behind a surface that is clear or hidden, tinted; it ends there when too little of its light is left.
 Traversal passShadow(inout TreeWalk walk, Traversal ray, Encounter e) {
     vec3 share = transmittance(e.boundary.from, ray.t);
     if (!e.boundary.skipped) share *= passingShare(e.material, ray.direction, e.n, e.eta);
@@ -259,7 +259,7 @@ void main() {
         bool arrived = walk.phase == PHASE_CLOSEST;
         bool toCamera = TRACKS_VOLUMES && walk.phase == PHASE_CAMERA;
         bool stopped = ray.slot != MINIRT_NONE;
-        bool clear = SHADOWS_PASS && walk.phase == PHASE_SHADOW && stopped && isClear(fetchMaterial(materialOf(ray.slot)));
+        bool clear = SHADOWS_PASS && walk.phase == PHASE_SHADOW && stopped && mayBeClear(ray.slot);
         if (arrived) {
             walk.hitSlot = ray.slot;
             walk.hitT = ray.t;
@@ -276,7 +276,7 @@ void main() {
         if (walk.phase == PHASE_SHADOW && !stopped) walk.radiance += walk.unshadowed * transmittance(mediumAround(walk.shadowVolumes), ray.t);
         if (clear) {
             ray = passShadow(walk, ray, e);
-            rays.x++;
+            rays.x += isDone(ray) ? 0u : 1u;
         } else if (toCamera && stopped) {
             ray = passToCamera(walk, ray, e);
         } else if (toCamera) {
