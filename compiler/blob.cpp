@@ -80,7 +80,8 @@ minirt_material encodeMaterial(const Material& m, const Geometry& geometry, cons
     out.emission = vec4(m.emission);
     out.checker = vec4(checkerOffset(geometry.origin, m.checkerScale), m.checkerScale);
     out.options = {(m.fresnel ? MINIRT_MATERIAL_FRESNEL : 0u) | (m.checker ? MINIRT_MATERIAL_CHECKER : 0u) |
-                       (m.thin ? MINIRT_MATERIAL_THIN : 0u) | (m.clearShadows ? MINIRT_MATERIAL_CLEAR_SHADOWS : 0u),
+                       (m.thin && m.transmit != glm::vec3(0) ? MINIRT_MATERIAL_THIN : 0u) |
+                       (m.clearShadows ? MINIRT_MATERIAL_CLEAR_SHADOWS : 0u),
                    images.texture(m.diffuseTexture), m.checkerA, m.checkerB};
     return out;
 }

@@ -517,6 +517,21 @@ TEST_CASE("a hidden surface casts no shadow, whatever its material") {
     }
 }
 
+TEST_CASE("an opaque material is no sheet, thin or not, in every kernel") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const TemporaryDir dir;
+    const View view{{0, 1, 3}, {0, 0, 0}, 20, 16};
+    const auto scene = [&](const std::string& thin) {
+        return underWhite(view,
+                          R"("m":{"model":"phong","diffuse":0,"reflect":0.5,"refract":0,"fresnel":true,"thin":)" + thin + "}",
+                          floorOf("m"));
+    };
+    const Picture thick = renderScene(gpu, dir, scene("false")), thin = renderScene(gpu, dir, scene("true"));
+    CHECK(thin == thick);
+    CHECK(renderWithAllEffects(gpu, dir, scene("true")) == thin);
+}
+
 TEST_CASE("kernels with every effect draw the same bits as those with what the media call for") {
     GpuContext gpu;
     if (!gpu) return;
