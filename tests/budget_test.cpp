@@ -273,6 +273,51 @@ TEST_CASE("any budget of steps gives the same picture bit for bit") {
     }
 }
 
+/// The camera, a lamp, a fish and a pane lie in overlapping volumes: lists in rays that wait, in shadow rays and on the way to the camera.
+std::string nestedScene(const std::string& nesting, const std::string& more) {
+    const std::string clear = R"({"model":"pbr","roughness":0,"transmission":1,)";
+    return R"({"camera":{"position":[0.3,0.2,0.9],"target":[0,0,-1],"vfov":70},"background":{"color":[0.5,0.7,1]},"nesting":")" +
+           nesting +
+           R"(","lights":[{"type":"point","position":[-0.5,0.6,0],"intensity":[3,3,3]},)"
+           R"({"type":"directional","direction":[1,-2,-1],"irradiance":[1,1,1]}],"materials":{"water":)" +
+           clear + R"("ior":1.33,"attenuationColor":[0.3,0.8,0.9],"inscatter":0.3},"ice":)" + clear +
+           R"("glass":"ice"},"pane":)" + clear +
+           R"("thin":true},"fish":{"model":"phong","diffuse":0.6,"reflect":0.3}},"objects":[)"
+           R"({"sphere":{"center":[0,0,0],"radius":2},"material":"water"},{"sphere":{"center":[0,0,-1.8],"radius":0.7},"material":"ice"},)"
+           R"({"sphere":{"center":[0.4,0,1.2],"radius":0.8},"material":"ice"},)"
+           R"({"sphere":{"center":[-0.5,-0.3,-0.6],"radius":0.3},"material":"fish"},)"
+           R"({"rectangle":{"origin":[-1,-1,-0.2],"u":[2,0,0],"v":[0,0.6,-0.5]},"material":"pane"},)"
+           R"({"rectangle":{"origin":[-9,-2.5,9],"u":[18,0,0],"v":[0,0,-18]},"material":"fish"}],)"
+           R"("render":{"size":[16,16],"maxDepth":4)" +
+           more + "}}";
+}
+
+TEST_CASE("any budget of steps gives the same picture of nested volumes bit for bit") {
+    TemporaryDir dir;
+    for (const std::string nesting : {"ordered", "parity"})
+        for (const std::string more : {"", R"(,"dispersionMode":"spectral")"}) {
+            CAPTURE(nesting);
+            CAPTURE(more);
+            const auto blob = test::bakeScene(dir, nestedScene(nesting, more));
+            GpuContext gpu;
+            if (!gpu) return;
+            const Picture whole = LoadedScene(gpu, blob).render();
+            for (const uint32_t steps : {7u, 64u}) {
+                CAPTURE(steps);
+                GpuContext hasty;
+                test::setStepBudget(hasty.get(), steps);
+                const Picture picture = LoadedScene(hasty, blob).render();
+                CHECK(picture == whole);
+                CHECK(picture.stats.resumed_dispatches > 0);
+                CHECK(picture.stats.shadow_rays == whole.stats.shadow_rays);
+                CHECK(picture.stats.secondary_rays == whole.stats.secondary_rays);
+            }
+            GpuContext other;
+            test::specialiseAsGpu(other.get());
+            CHECK(LoadedScene(other, blob).render() == whole);
+        }
+}
+
 TEST_CASE("kernels specialised as for a GPU give the same picture bit for bit") {
     TemporaryDir dir;
     Picture pictures[2];
