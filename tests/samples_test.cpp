@@ -6,18 +6,24 @@
 #include <glm/gtc/constants.hpp>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 
+#include "aquarium.hpp"
+#include "fish.hpp"
 #include "gems.hpp"
 #include "generate.hpp"
 #include "ice.hpp"
 #include "knot.hpp"
 #include "lathe.hpp"
 #include "polyhedron.hpp"
+#include "scene.hpp"
 #include "scene_files.hpp"
+#include "sheet.hpp"
 #include "sphere.hpp"
 #include "support.hpp"
 #include "vessels.hpp"
+#include "volumes.hpp"
 
 namespace {
 
@@ -74,7 +80,7 @@ TEST_CASE("every sample mesh is a closed manifold that faces outward as written 
         CHECK(samples::signedVolume(mesh) > 0);
         ++meshes;
     }
-    CHECK(meshes >= 12);
+    CHECK(meshes >= 21);
 }
 
 TEST_CASE("two runs of the generator write the same bytes") {
@@ -90,11 +96,43 @@ TEST_CASE("the generator writes every scene file unchanged") {
     samples::generate(folder.path());
     const auto written = contents(folder.path());
     const auto source = contents(std::filesystem::path(MINIRT_SOURCE_DIR) / "samples" / "scenes");
-    REQUIRE(samples::sceneFiles().size() >= 6);
+    REQUIRE(samples::sceneFiles().size() >= 8);
     for (const auto& [name, text] : samples::sceneFiles()) {
         CAPTURE(name);
         CHECK(written.at(name) == source.at(name));
     }
+}
+
+TEST_CASE("every sample scene loads without a warning, its volumes closed and in an order that is no guess") {
+    const test::TemporaryDir folder;
+    samples::generate(folder.path());
+    for (const auto& [name, text] : samples::sceneFiles()) {
+        CAPTURE(name);
+        minirtc::Diagnostics diagnostics;
+        const minirtc::Scene scene = minirtc::loadScene(folder.path() / name, diagnostics);
+        const minirtc::Geometry geometry = minirtc::flatten(scene, diagnostics);
+        minirtc::analyseVolumes(scene, geometry, diagnostics);
+        CHECK(diagnostics.warnings == std::vector<std::string>{});
+    }
+}
+
+TEST_CASE("the compiler finds what displaces what in the sample scenes") {
+    const test::TemporaryDir folder;
+    samples::generate(folder.path());
+    const auto displacements = [&](const std::string& name) {
+        minirtc::Diagnostics diagnostics;
+        const minirtc::Scene scene = minirtc::loadScene(folder.path() / name, diagnostics);
+        const minirtc::Geometry geometry = minirtc::flatten(scene, diagnostics);
+        std::set<std::string> found;
+        for (const minirtc::Displacement& pair : minirtc::analyseVolumes(scene, geometry, diagnostics).displacements) {
+            const auto material = [&](uint32_t body) { return scene.materials[geometry.bodies[body].material].name; };
+            found.insert(material(pair.above) + " in " + material(pair.below));
+        }
+        return found;
+    };
+    CHECK(displacements("whisky.json") == std::set<std::string>{"glass in whisky", "ice in whisky"});
+    CHECK(displacements("fish_tank.json") == std::set<std::string>{"air in water", "glass in water"});
+    CHECK(displacements("diamond.json").empty());
 }
 
 TEST_CASE("manifoldDefect names a hole and a flipped face") {
@@ -166,6 +204,63 @@ TEST_CASE("the filling reaches into the tumbler but not through it") {
         lowest = std::min(lowest, p.y);
     }
     CHECK(lowest == doctest::Approx(shape.base - 0.0003));
+}
+
+TEST_CASE("the water reaches into the walls of the tank but not through them, the sand less far") {
+    const samples::Aquarium shape;
+    const auto reach = [&](const samples::Mesh& mesh) {
+        double most = -1;
+        for (const glm::dvec3& p : mesh.positions) {
+            most = std::max({most, std::abs(p.x) - shape.halfWidth, std::abs(p.z) - shape.halfDepth, -p.y});
+            CHECK(p.y < shape.height);
+        }
+        return most;
+    };
+    CHECK(reach(samples::tankWater(shape)) == doctest::Approx(shape.overlap));
+    CHECK(reach(samples::tankSand(shape)) == doctest::Approx(shape.overlap / 2));
+    CHECK(shape.overlap < shape.wall);
+}
+
+TEST_CASE("the volume of the tank is that of its outside less that of its inside") {
+    const samples::Aquarium shape;
+    const double outside = 4 * (shape.halfWidth + shape.wall) * (shape.halfDepth + shape.wall) * (shape.height + shape.wall);
+    const double inside = 4 * shape.halfWidth * shape.halfDepth * shape.height;
+    CHECK(samples::signedVolume(samples::tank(shape)) == doctest::Approx(outside - inside));
+}
+
+TEST_CASE("a relief over a level floor is a box, and a leaf of even thickness has its outline's area times that") {
+    const auto level = [](double, double) { return 2.0; };
+    CHECK(samples::signedVolume(samples::relief(3, 4, -1, 5, 7, level)) == doctest::Approx(6 * 8 * 3));
+    const auto flat = [](double u, double v) { return samples::LeafPoint{{2 * u, 3 * v, 0}, {0, 0, 0.05}}; };
+    const double volume = samples::signedVolume(samples::leaf(200, 200, flat));
+    CHECK(volume < 2 * 3 * 0.1);
+    CHECK(volume == doctest::Approx(2 * 3 * 0.1).epsilon(0.02));  // the edges all around are sharp
+}
+
+TEST_CASE("fish are as long as they claim, their two sides alike before they bend") {
+    for (const auto species : {samples::Species::clownfish, samples::Species::tang, samples::Species::butterflyfish}) {
+        const samples::Mesh fish = samples::fish(species, 0);
+        double front = 0, back = 0, left = 0, right = 0;
+        for (const glm::dvec3& p : fish.positions) {
+            front = std::max(front, p.x), back = std::min(back, p.x);
+            left = std::min(left, p.z), right = std::max(right, p.z);
+        }
+        CHECK(front == doctest::Approx(0.5));
+        CHECK(front - back == doctest::Approx(1).epsilon(0.06));
+        CHECK(right == doctest::Approx(-left).epsilon(0.1));
+    }
+}
+
+TEST_CASE("the studio is dark with lamps in it") {
+    const samples::Picture picture = samples::studio(256, 128);
+    size_t dark = 0, bright = 0;
+    for (const glm::vec3& pixel : picture.pixels) {
+        dark += pixel.g < 0.1F ? 1 : 0;
+        bright += pixel.g > 10 ? 1 : 0;
+    }
+    CHECK(dark > picture.pixels.size() / 2);
+    CHECK(bright > 20);
+    CHECK(bright < picture.pixels.size() / 50);
 }
 
 TEST_CASE("fluting removes glass") {

@@ -1,5 +1,8 @@
 #include "generate.hpp"
 
+#include "aquarium.hpp"
+#include "board.hpp"
+#include "fish.hpp"
 #include "gems.hpp"
 #include "ice.hpp"
 #include "knot.hpp"
@@ -13,12 +16,20 @@
 namespace samples {
 namespace {
 
+/// A mesh with a material of its own, which its picture of the same name colours.
+void writeTextured(const Mesh& mesh, const Picture& picture, const std::string& rest, const std::filesystem::path& folder,
+                   const std::string& name) {
+    writeObj(mesh, folder / (name + ".obj"), name);
+    writeText(folder / (name + ".mtl"), "newmtl " + name + "\nKd 1 1 1\n" + rest + "map_Kd " + name + ".png\n");
+    writePng(picture, folder / (name + ".png"));
+}
+
 void writeStones(const std::filesystem::path& folder) {
     writeObj(brilliantCut(), folder / "brilliant.obj");
     writeObj(stepCut(1, 1), folder / "asscher.obj");
     writeObj(stepCut(1.4, 1), folder / "emerald.obj");
     writeObj(prism(3, 1, 2), folder / "prism.obj");
-    writeObj(pebble(5), folder / "pebble.obj");
+    writeObj(pebble(4), folder / "pebble.obj");
 }
 
 void writeVessels(const std::filesystem::path& folder) {
@@ -31,9 +42,21 @@ void writeVessels(const std::filesystem::path& folder) {
     writeObj(iceCube(0.027), folder / "ice.obj");
     writeObj(wineGlass(), folder / "wine_glass.obj");
     writeObj(bowl(), folder / "bowl.obj");
-    writeObj(vase(), folder / "vase.obj", "vase");
-    writeText(folder / "vase.mtl", "newmtl vase\nKd 1 1 1\nKs 0.3 0.3 0.3\nNs 120\nmap_Kd vase.png\n");
-    writePng(porcelain(1024, 1024), folder / "vase.png");
+    writeTextured(vase(), porcelain(1024, 1024), "Ks 0.3 0.3 0.3\nNs 120\n", folder, "vase");
+    const std::string polish = "Ks 1 1 1\nNs 200\nNi 1.5\nillum 5\n";
+    writeTextured(board({1.2, 0.04, 0.8}, 0.004), wood(1536, 1024), polish, folder, "table");
+}
+
+void writeAquarium(const std::filesystem::path& folder) {
+    const Aquarium shape;
+    writeObj(tank(shape), folder / "tank.obj");
+    writeObj(tankWater(shape), folder / "tank_water.obj");
+    writeObj(seaGrass(), folder / "sea_grass.obj");
+    writeTextured(tankSand(shape), sandGrains(512, 512), "", folder, "sand");
+    const std::string scales = "Ks 0.25 0.25 0.25\nNs 40\n";
+    writeTextured(fish(Species::clownfish, 0.35), fishSkin(Species::clownfish, 512), scales, folder, "clownfish");
+    writeTextured(fish(Species::tang, -0.3), fishSkin(Species::tang, 512), scales, folder, "tang");
+    writeTextured(fish(Species::butterflyfish, 0.2), fishSkin(Species::butterflyfish, 512), scales, folder, "butterflyfish");
 }
 
 }  // namespace
@@ -42,9 +65,13 @@ void generate(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     writeStones(folder);
     writeVessels(folder);
+    writeAquarium(folder);
     writeObj(torusKnot(TorusKnot{}), folder / "knot.obj");
     writeObj(icosphere(4), folder / "sphere.obj");
     writeHdr(eveningSky(1024, 512), folder / "sky.hdr");
+    writeHdr(noonSky(1024, 512), folder / "noon.hdr");
+    writeHdr(studio(1024, 512), folder / "studio.hdr");
+    writeHdr(bar(1024, 512), folder / "bar.hdr");
     for (const auto& [name, text] : sceneFiles()) writeText(folder / name, text);
 }
 

@@ -21,6 +21,21 @@ Picture paint(int width, int height, const std::function<glm::dvec3(double, doub
 /// radiance.
 Picture eveningSky(int width, int height);
 
+/// The same lake at noon, without lamps.
+Picture noonSky(int width, int height);
+
+/// Equirectangular photographer's studio: dark, soft boxes at the sides, small lamps overhead, a cool backdrop at -Z.
+Picture studio(int width, int height);
+
+/// Equirectangular bar by night, out of focus.
+Picture bar(int width, int height);
+
+/// Planks of polished walnut along u.
+Picture wood(int width, int height);
+
+/// Coarse light sand; repeats in u and v.
+Picture sandGrains(int width, int height);
+
 /// Cobalt bands and petals on white, for the vase: repeats in u, v = 0 at the top.
 Picture porcelain(int width, int height);
 

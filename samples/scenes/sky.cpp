@@ -1,59 +1,10 @@
 #include <cmath>
-#include <cstdint>
-#include <glm/gtc/constants.hpp>
 
-#include "picture.hpp"
+#include "noise.hpp"
+#include "soft_box.hpp"
 
 namespace samples {
 namespace {
-
-/// A lamp in the sky: a rectangle around `centre`, half extents as tangents, with a soft edge.
-struct SoftBox {
-    glm::dvec3 centre;  // unit
-    double halfWidth;
-    double halfHeight;
-    glm::dvec3 radiance;
-};
-
-/// `azimuth` in degrees to the right of -Z, `elevation` above the horizon.
-glm::dvec3 toward(double azimuth, double elevation) {
-    const double a = glm::radians(azimuth);
-    const double e = glm::radians(elevation);
-    return {std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)};
-}
-
-glm::dvec3 glow(const SoftBox& box, const glm::dvec3& d) {
-    constexpr double kEdge = 0.06;
-    const double ahead = glm::dot(d, box.centre);
-    if (ahead <= 0) return glm::dvec3(0);
-    const glm::dvec3 right = glm::normalize(glm::cross(box.centre, glm::dvec3(0, 1, 1e-3)));
-    const glm::dvec3 up = glm::cross(right, box.centre);
-    const double x = std::abs(glm::dot(d, right)) / ahead;
-    const double y = std::abs(glm::dot(d, up)) / ahead;
-    return box.radiance * (1 - glm::smoothstep(box.halfWidth - kEdge, box.halfWidth + kEdge, x)) *
-           (1 - glm::smoothstep(box.halfHeight - kEdge, box.halfHeight + kEdge, y));
-}
-
-/// Uniform in [0,1), a pure function of the lattice point (finaliser of MurmurHash3, A. Appleby).
-double lattice(const glm::ivec3& p) {
-    uint32_t h =
-        static_cast<uint32_t>(p.x) * 73856093u ^ static_cast<uint32_t>(p.y) * 19349663u ^ static_cast<uint32_t>(p.z) * 83492791u;
-    h = (h ^ h >> 16) * 0x85ebca6bu;
-    h = (h ^ h >> 13) * 0xc2b2ae35u;
-    return (h ^ h >> 16) / 4294967296.0;
-}
-
-double valueNoise(const glm::dvec3& p) {
-    const glm::dvec3 cell = glm::floor(p);
-    const glm::dvec3 t = glm::smoothstep(glm::dvec3(0), glm::dvec3(1), p - cell);
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::ivec3 offset{corner & 1, corner >> 1 & 1, corner >> 2};
-        const glm::dvec3 weight = glm::mix(1.0 - t, t, glm::dvec3(offset));
-        sum += weight.x * weight.y * weight.z * lattice(glm::ivec3(cell) + offset);
-    }
-    return sum;
-}
 
 /// Streaks of cloud on a layer overhead, 0 to 1, thinning out towards the horizon's haze.
 double clouds(const glm::dvec3& d) {
@@ -100,16 +51,35 @@ glm::dvec3 lake(const glm::dvec3& d) {
     return glm::dvec3(0.02, 0.03, 0.045) + mirror * skyAndHills(glm::normalize(glm::dvec3{d.x, -1.15 * d.y, d.z}));
 }
 
+/// Blue with white clouds over green hills and the same lake.
+glm::dvec3 noon(const glm::dvec3& d) {
+    glm::dvec3 color = glm::mix(glm::dvec3(0.72, 0.86, 1.0), glm::dvec3(0.13, 0.34, 0.86), glm::smoothstep(0.0, 0.75, d.y));
+    color = glm::mix(color, glm::dvec3(1.35, 1.35, 1.32), 0.9 * clouds(d));
+    const double far = ridge(d, 2.6, 0.14);
+    const double near = ridge(d, 4.1, 0.06);
+    color = glm::mix(glm::dvec3(0.27, 0.40, 0.50), color, glm::smoothstep(far - 0.004, far + 0.004, d.y));
+    return glm::mix(glm::dvec3(0.10, 0.24, 0.12), color, glm::smoothstep(near - 0.004, near + 0.004, d.y));
+}
+
 }  // namespace
+
+Picture noonSky(int width, int height) {
+    const glm::dvec3 sun = toward(-40, 67);
+    return panorama(width, height, [&](const glm::dvec3& d) {
+        if (d.y > 0) {
+            const double near = 0.5 + 0.5 * glm::dot(d, sun);
+            return noon(d) + glm::dvec3(1.2, 1.1, 0.9) * std::pow(near, 60) + glm::dvec3(40, 38, 32) * std::pow(near, 6000);
+        }
+        const double mirror = 0.04 + 0.5 * std::exp(8 * d.y);
+        return glm::dvec3(0.03, 0.15, 0.21) + mirror * noon(glm::normalize(glm::dvec3{d.x, -1.15 * d.y, d.z}));
+    });
+}
 
 Picture eveningSky(int width, int height) {
     const SoftBox boxes[] = {{toward(-118, 38), 0.52, 0.34, {6.5, 5.8, 5.0}},  // key, behind the camera's left shoulder
                              {toward(128, 32), 0.14, 0.5, {3.0, 4.2, 6.0}},    // cool strip on the right
                              {toward(0, 74), 0.42, 0.2, {3.2, 3.3, 3.5}}};     // overhead
-    return paint(width, height, [&](double u, double v) {
-        const double azimuth = glm::two_pi<double>() * (u - 0.5);
-        const double polar = glm::pi<double>() * v;
-        const glm::dvec3 d{std::cos(azimuth) * std::sin(polar), std::cos(polar), std::sin(azimuth) * std::sin(polar)};
+    return panorama(width, height, [&](const glm::dvec3& d) {
         glm::dvec3 color = d.y > 0 ? skyAndHills(d) : lake(d);
         for (const SoftBox& box : boxes) color += glow(box, d);
         return color;
