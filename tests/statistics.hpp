@@ -68,11 +68,12 @@ class SquareCounts {
 public:
     static constexpr int kRows = 80;
     static constexpr int kColumns = 160;
+    static constexpr size_t kBins = 80 * size_t{160};
 
     void add(double row, double column) {
-        const int r = std::clamp(static_cast<int>(row * kRows), 0, kRows - 1);
-        const int c = std::clamp(static_cast<int>(column * kColumns), 0, kColumns - 1);
-        counts_[static_cast<size_t>(r * kColumns + c)] += 1;
+        const auto r = static_cast<size_t>(std::clamp(static_cast<int>(row * kRows), 0, kRows - 1));
+        const auto c = static_cast<size_t>(std::clamp(static_cast<int>(column * kColumns), 0, kColumns - 1));
+        counts_[r * kColumns + c] += 1;
         total_ += 1;
     }
     void addOutside() {
@@ -87,10 +88,10 @@ public:
         for (double& e : expected) e *= total_;
         return chiSquaredP(counts_, expected);
     }
-    double pUniform() const { return p(std::vector<double>(kRows * kColumns, 1.0 / (kRows * kColumns))); }
+    double pUniform() const { return p(std::vector<double>(kBins, 1.0 / kBins)); }
 
 private:
-    std::vector<double> counts_ = std::vector<double>(kRows * kColumns + 1);
+    std::vector<double> counts_ = std::vector<double>(kBins + 1);
     double total_ = 0;
 };
 
@@ -151,7 +152,7 @@ private:
         for (int k = 0; k < 4; ++k) {
             sum += parts[k] = gauss(pdf, r + (k & 1) * dr / 2, c + (k >> 1) * dc / 2, dr / 2, dc / 2);
         }
-        if (depth == 9 || std::abs(sum - whole) < 1e-8 + 1e-4 * whole / (1 + depth)) return sum;
+        if (depth == 9 || std::abs(sum - whole) < 1e-9 + 1e-5 * whole) return sum;
         sum = 0;
         for (int k = 0; k < 4; ++k) {
             sum += refine(pdf, r + (k & 1) * dr / 2, c + (k >> 1) * dc / 2, dr / 2, dc / 2, parts[k], depth + 1);

@@ -6,11 +6,11 @@
 /// (cos, sin) of t quarter turns, |t| <= 1/2: the Taylor series, to 2e-9 and to the rounding of float; devices' own are only good to 2^-11.
 vec2 cosSinNearZero(real t) {
     real s = t * t;
-    real c = real(1) - s * (real(1.2337005501361697) -
-                            s * (real(0.2536695079010480) - s * (real(0.0208634807633530) - s * (real(0.00091926027483943) - s * real(0.0000252020423730606)))));
-    real odd = real(1.5707963267948966) -
-               s * (real(0.6459640975062463) - s * (real(0.0796926262461670) - s * (real(0.0046817541353187) - s * real(0.00016044118478736))));
-    return vec2(c, t * odd);
+    real even = real(0.0208634807633530) - s * (real(0.00091926027483943) - s * real(0.0000252020423730606));
+    even = real(1.2337005501361697) - s * (real(0.2536695079010480) - s * even);
+    real odd = real(0.0796926262461670) - s * (real(0.0046817541353187) - s * real(0.00016044118478736));
+    odd = real(1.5707963267948966) - s * (real(0.6459640975062463) - s * odd);
+    return vec2(real(1) - s * even, t * odd);
 }
 
 /// (cos, sin) of u turns, u in [0,1].
@@ -65,7 +65,10 @@ real uniformConePdf(real height) { return real(INV_TWO_PI) / height; }
 
 /// Barycentrics of the second and the third vertex, uniform over a triangle's area; neighbours stay neighbours (Heitz 2019, A Low-Distortion Map
 /// Between Triangle and Square).
-vec2 uniformTriangle(vec2 u) { return u.y > u.x ? vec2(real(0.5) * u.x, u.y - real(0.5) * u.x) : vec2(u.x - real(0.5) * u.y, real(0.5) * u.y); }
+vec2 uniformTriangle(vec2 u) {
+    vec2 middle = u * real(0.5);
+    return u.y > u.x ? vec2(middle.x, u.y - middle.x) : vec2(u.x - middle.y, middle.y);
+}
 
 /// The density over directions of a point that is drawn with density `pdf` over area, seen over `distance` under the cosine `cosLight` at the
 /// light; 0 edge-on, where no direction meets it.
