@@ -15,6 +15,7 @@
 
 namespace shader_names {
 using glm::abs;
+using glm::bitfieldReverse;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
@@ -28,6 +29,7 @@ using glm::normalize;
 using glm::sqrt;
 using glm::uintBitsToFloat;
 using glm::uvec2;
+using glm::uvec4;
 using uint = glm::uint;
 }  // namespace shader_names
 
@@ -46,6 +48,9 @@ constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 #include "../shaders/bsdf/optics.glsl"
 #include "../shaders/bsdf/medium.glsl"
 #include "../shaders/bsdf/dispersion.glsl"
+#include "../shaders/sampling/random.glsl"
+#include "../shaders/sampling/warp.glsl"
+#include "../shaders/bsdf/microfacet.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
@@ -72,6 +77,9 @@ inline real nextDown(real x) {
 #include "../shaders/bsdf/optics.glsl"
 #include "../shaders/bsdf/medium.glsl"
 #include "../shaders/bsdf/dispersion.glsl"
+#include "../shaders/sampling/random.glsl"
+#include "../shaders/sampling/warp.glsl"
+#include "../shaders/bsdf/microfacet.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
