@@ -81,7 +81,8 @@ void addVolumes(EffectSet& effects, const Scene& scene, const Volumes& volumes) 
     const bool hides = !volumes.overlap.empty() || !volumes.selfOverlap.empty();
     callFor(effects, Effect::transmissiveShadows, hides && !volumes.lightInside.empty(), volumes.lightInside);
     callFor(effects, Effect::parity, nests && scene.nesting == Nesting::parity, "\"nesting\": \"parity\"");
-    effects.volumeCapacity = std::max(volumes.capacity, 1u);
+    // One to spare: a ray that rounding leads past a surface keeps an entry of a volume that it has left.
+    effects.volumeCapacity = std::min(std::max(volumes.capacity, 1u) + 1, kMostNested);
 }
 
 }  // namespace

@@ -97,7 +97,8 @@ std::optional<bool> isInsideBehind(const Primitive& primitive, const Surface& ow
 /// Looks around a point where edges touch for one that is in both volumes.
 bool shareSpaceNear(const glm::dvec3& point, double size, const Surface& a, const Surface& b) {
     for (int i = 0; i < 27; ++i) {
-        const glm::ivec3 step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        const int x = i % 3, y = i / 3 % 3, z = i / 9;
+        const glm::ivec3 step(x - 1, y - 1, z - 1);
         // Turned a little out of the axes, along which edges tend to run.
         const glm::dvec3 direction = glm::dvec3(step) + glm::dvec3(0.0713, -0.1319, 0.1931);
         const glm::dvec3 near = point + direction * (kDepths[0] * size);

@@ -177,7 +177,7 @@ bool carriesOn(vec3 weight) { return importance(weight) > frame.position.w; }
 /// The shadow ray goes on behind a surface that is clear or hidden, tinted; it ends there when too little of its light is left.
 Traversal passShadow(inout TreeWalk walk, Traversal ray, Encounter e) {
     vec3 share = transmittance(e.boundary.from, ray.t);
-    if (!e.boundary.skipped) share *= passingShare(e.material, ray.direction, e.n, e.eta);
+    if (!e.boundary.skipped) share *= passingShare(e.material, ray.direction, dot(ray.direction, e.n) < 0.0 ? e.n : e.ng, e.eta);
     walk.unshadowed *= share;
     walk.shadowVolumes = e.boundary.transmitted;
     LightSample light = sampleLight(walk.light - 1u, e.surface.p);
