@@ -167,7 +167,7 @@ TEST_CASE("case 16: coincident surfaces, entered before left, are one interface"
 }
 
 TEST_CASE("cases 17 and 18: equal indices and skips are told by the media alone") {
-    // Two ids are two media whatever their indices; a skip leaves `from` equal to `to` and costs nothing (whitted_test shows depth and bits).
+    // Two ids are two media whatever their indices; a skip leaves `from` equal to `to` and costs nothing (optics_test shows the bits, media_test the depth).
     CHECK(ordered("g i i g") == ".>g g>i i>g g>.");
 }
 
