@@ -65,7 +65,7 @@ typedef struct minirt_uvec4 {
 } minirt_uvec4;
 #define MINIRT_UINT uint32_t
 /* layout-begin */
-#define MINIRT_FORMAT_VERSION 2
+#define MINIRT_FORMAT_VERSION 3
 
 #define MINIRT_NONE 0xffffffffu
 #define MINIRT_RAY_END 3.0e38f
@@ -82,13 +82,16 @@ typedef struct minirt_uvec4 {
 #define MINIRT_BINDING_TEXELS 8
 #define MINIRT_BINDING_MEDIA 9
 #define MINIRT_BINDING_SPECTRUM 10
-#define MINIRT_BINDING_FILM 11
-#define MINIRT_BINDING_RAY_COUNTS 12
-#define MINIRT_BINDING_STATE 13
-#define MINIRT_BINDING_COUNTERS 14
-#define MINIRT_BINDING_NODE_STORAGE 15
-#define MINIRT_BINDING_PRIMITIVE_STORAGE 16
-#define MINIRT_BINDING_COUNT 17
+#define MINIRT_BINDING_EMITTERS 11
+#define MINIRT_BINDING_ENVIRONMENT 12
+#define MINIRT_BINDING_FILM 13
+#define MINIRT_BINDING_RAY_COUNTS 14
+#define MINIRT_BINDING_STATE 15
+#define MINIRT_BINDING_COUNTERS 16
+#define MINIRT_BINDING_QUEUES 17
+#define MINIRT_BINDING_NODE_STORAGE 18
+#define MINIRT_BINDING_PRIMITIVE_STORAGE 19
+#define MINIRT_BINDING_COUNT 20
 
 /* Specialisation constants: what differs between a CPU device and a GPU. */
 #define MINIRT_SPEC_GROUP_SIZE 0
@@ -116,11 +119,33 @@ typedef struct minirt_uvec4 {
 #define MINIRT_MATERIAL_CHECKER 2u
 #define MINIRT_MATERIAL_THIN 4u
 #define MINIRT_MATERIAL_CLEAR_SHADOWS 8u
+#define MINIRT_MATERIAL_PHYSICAL 16u
+#define MINIRT_MATERIAL_ALPHA_MASK 32u
+#define MINIRT_MATERIAL_ALPHA_BLEND 64u
+#define MINIRT_MATERIAL_SHINES_BOTH_WAYS 128u
 
 #define MINIRT_LIGHT_DIRECTIONAL 1u
 #define MINIRT_LIGHT_INVERSE_SQUARE 2u
+#define MINIRT_LIGHT_SPOT 4u
+
+/* What an entry of section "EMITTERS" stands for: a primitive, a light or the environment in the upper two bits; below them its number. */
+#define MINIRT_EMITTER_PRIMITIVE 0u
+#define MINIRT_EMITTER_LIGHT 0x40000000u
+#define MINIRT_EMITTER_ENVIRONMENT 0x80000000u
+#define MINIRT_EMITTER_INDEX 0x3fffffffu
+
+/* Of minirt_frame.sampling.y; above them is the minirt_light_sampling. */
+#define MINIRT_FRAME_CAMERA_INSIDE 1u
+#define MINIRT_FRAME_LIGHTS_SHIFT 8
+
+#define MINIRT_FILTER_BOX 0u
+#define MINIRT_FILTER_TENT 1u
+#define MINIRT_FILTER_GAUSSIAN 2u
 
 #define MINIRT_IMAGE_REPEAT_V 1u
+#define MINIRT_IMAGE_CLAMP_U 2u
+#define MINIRT_IMAGE_MIRROR_U 4u
+#define MINIRT_IMAGE_MIRROR_V 8u
 
 /* Section "SPECTRUM" has 2^BITS equally likely wavelengths, by which white light is sampled: a row each. rgb: colour, white in the mean
    of all; w: 1 / wavelength^2 in 1/um^2. */
@@ -130,10 +155,11 @@ typedef struct minirt_uvec4 {
 #define MINIRT_PRIMITIVE_ROWS 3
 #define MINIRT_NORMAL_ROWS 3
 #define MINIRT_UV_ROWS 2
-#define MINIRT_MATERIAL_ROWS 7
-#define MINIRT_LIGHT_ROWS 3
+#define MINIRT_MATERIAL_ROWS 10
+#define MINIRT_LIGHT_ROWS 4
 #define MINIRT_IMAGE_ROWS 2
-#define MINIRT_MEDIUM_ROWS 5
+#define MINIRT_MEDIUM_ROWS 6
+#define MINIRT_PICK_ROWS 1
 
 /* What a kernel reads of the scene as a whole. Positions in the blob are relative to minirt_scene_desc::origin ("scene space"). */
 struct minirt_scene_rows {
@@ -143,23 +169,34 @@ struct minirt_scene_rows {
     minirt_vec4 background; /* rgb: radiance, or the factor of the image; w: rotation of the image in turns */
     minirt_vec4 boundsMin;  /* xyz: of all volumes, scene space */
     minirt_vec4 boundsMax;
-    minirt_uvec4 counts; /* x: lights, y: index of the background image or MINIRT_NONE, z: volumes */
+    minirt_uvec4 counts;      /* x: lights, y: background image or MINIRT_NONE, z: volumes, w: emitters */
+    minirt_uvec4 environment; /* x, y: columns and rows of picks; z: bits of the probability to be picked; w: MINIRT_FILTER_ */
 };
 
 struct minirt_material {
     minirt_vec4 diffuse;  /* rgb: radiance per irradiance; w: exponent of the highlight */
     minirt_vec4 specular; /* rgb: weight of the highlight; w: index of refraction */
     minirt_vec4 reflect;  /* rgb: weight of the mirror ray */
-    minirt_vec4 transmit; /* rgb: weight of the refracted ray */
-    minirt_vec4 emission; /* rgb: radiance */
+    minirt_vec4 transmit; /* rgb: weight of the refracted ray; w: alpha */
+    minirt_vec4 emission; /* rgb: radiance; w: density over area with which a point is picked as a light, 1/m^2 */
     minirt_vec4 checker;  /* xyz: added to scene-space positions; w: cell size in metres */
-    minirt_uvec4 options; /* x: MINIRT_MATERIAL_ flags; y: image times diffuse or MINIRT_NONE; z, w: of a checker */
+    minirt_uvec4 options; /* x: MINIRT_MATERIAL_ flags; y: image times diffuse and base or MINIRT_NONE; z, w: of a checker */
+    minirt_vec4 base;     /* rgb: base colour; w: metallic */
+    minirt_vec4 finish;  /* x: roughness, y: transmission, z: strength of the normal map, w: alpha below which a mask is a hole */
+    minirt_uvec4 images; /* x: roughness (green) and metallic (blue), y: normals, z: emission; or MINIRT_NONE */
 };
 
 struct minirt_light {
-    minirt_vec4 position;  /* xyz: scene-space position, or the unit direction towards a directional light */
-    minirt_vec4 intensity; /* rgb: W/sr, or W/m^2 of a directional light */
+    minirt_vec4 position;  /* xyz: scene space, or the unit direction towards a directional light; w: cosine where a spot ends */
+    minirt_vec4 intensity; /* rgb: W/sr, or W/m^2 of a directional light; w: cosine up to which a spot is full */
+    minirt_vec4 axis;      /* xyz: unit direction into which a spot shines */
     minirt_uvec4 options;  /* x: MINIRT_LIGHT_ flags */
+};
+
+/* An entry of a table that picks by weight (Walker 1977, Vose 1991: the alias method). Section "EMITTERS" picks lights by their power,
+   "ENVIRON" cells of the environment: of equal width in longitude and equal height in latitude, row by row from +Y, the first from u = 0. */
+struct minirt_pick {
+    minirt_uvec4 entry; /* x: MINIRT_EMITTER_, y: entry instead, z: where 32 random bits reach this, w: bits of the probability */
 };
 
 struct minirt_image {
@@ -169,23 +206,24 @@ struct minirt_image {
 
 /* Medium 0 surrounds the scene; medium v + 1 fills volume v. */
 struct minirt_medium {
-    minirt_vec4 absorption; /* rgb: 1/m; w: share of the light taken away that comes back as the medium's own */
-    minirt_vec4 ior;        /* rgb: index of refraction for each channel by itself; w: for all light */
-    minirt_vec4 iorCurve;   /* index of refraction at c = 1 / wavelength^2 in 1/um^2: terms in c^-1, 1, c, c^2 */
-    minirt_vec4 boundsMin;  /* xyz: of the volume, scene space; w: the curve's term in c^3 */
-    minirt_vec4 boundsMax;  /* w: in c^4 */
+    minirt_vec4 absorption;  /* rgb: 1/m; w: share of the light taken away that comes back as the medium's own */
+    minirt_vec4 ior;         /* rgb: index of refraction for each channel by itself; w: for all light */
+    minirt_vec4 iorCurve;    /* index of refraction at c = 1 / wavelength^2 in 1/um^2: terms in c^-1, 1, c, c^2 */
+    minirt_vec4 iorCurveEnd; /* x: in c^3, y: in c^4 */
+    minirt_vec4 boundsMin;   /* xyz: of the volume, scene space */
+    minirt_vec4 boundsMax;
 };
 
 /* Pushed with each dispatch. */
 struct minirt_frame {
     minirt_vec4 position;  /* xyz: camera in scene space; w: rays with a smaller throughput are dropped */
-    minirt_vec4 forward;   /* unit */
-    minirt_vec4 right;     /* scaled to the half width of the image at distance 1 */
-    minirt_vec4 up;        /* scaled to its half height */
+    minirt_vec4 forward;   /* unit; w: radius of the lens */
+    minirt_vec4 right;     /* scaled to the half width of the image at distance 1; w: distance in focus */
+    minirt_vec4 up;        /* scaled to its half height; w: limit of what one path may add, 0: none */
     minirt_uvec4 size;     /* x, y: image; z: room for waiting segments; w: 1 in the last pass */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
-    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, w: words of state a slot */
-    minirt_uvec4 sampling; /* x: sample index, y: 1: camera perhaps in a volume, z: depth limit, w: 1 to go on with saved ones */
+    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, z: seed, w: words of state a slot */
+    minirt_uvec4 sampling; /* x: sample index, y: MINIRT_FRAME_ flags, z: depth limit, w: 1 to go on with saved ones */
 };
 
 struct minirt_counters {
@@ -231,6 +269,14 @@ typedef enum minirt_integrator {
     MINIRT_INTEGRATOR_WAVEFRONT = 3
 } minirt_integrator;
 
+/* How the path tracers find light. All give the same picture in the mean; the first has the least noise. */
+typedef enum minirt_light_sampling {
+    MINIRT_LIGHT_SAMPLING_MIS = 0,         /* picks lights and follows surfaces, weighed by the power heuristic */
+    MINIRT_LIGHT_SAMPLING_MIS_BALANCE = 1, /* the same by the balance heuristic */
+    MINIRT_LIGHT_SAMPLING_LIGHTS = 2,      /* picks lights alone: next-event estimation */
+    MINIRT_LIGHT_SAMPLING_SURFACES = 3     /* follows surfaces alone; lights without size stay unseen */
+} minirt_light_sampling;
+
 typedef enum minirt_node_layout { MINIRT_NODES_QUANTISED = 0, MINIRT_NODES_FLOAT = 1 } minirt_node_layout;
 
 /* World space, right-handed. */
@@ -238,7 +284,9 @@ typedef struct minirt_camera {
     double position[3];
     double target[3];
     double up[3];
-    double vfov; /* degrees, of the image's height */
+    double vfov;           /* degrees, of the image's height */
+    double aperture;       /* diameter of the lens in metres; 0: a pinhole. The path tracers' only */
+    double focus_distance; /* of the plane in focus in metres, along the view */
 } minirt_camera;
 
 /* Section "SCENE": what the host needs to know. */
@@ -270,6 +318,7 @@ typedef struct minirt_material minirt_material;
 typedef struct minirt_light minirt_light;
 typedef struct minirt_image minirt_image;
 typedef struct minirt_medium minirt_medium;
+typedef struct minirt_pick minirt_pick;
 typedef struct minirt_frame minirt_frame;
 typedef struct minirt_counters minirt_counters;
 
@@ -422,14 +471,17 @@ typedef struct minirt_region {
 } minirt_region;
 
 typedef struct minirt_render_desc {
-    uint32_t width, height;            /* both 0: the scene's */
-    uint32_t samples;                  /* a pixel; 0: the scene's */
-    uint32_t first_sample;             /* index of the first */
-    uint32_t max_depth;                /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
-    minirt_integrator integrator;      /* 0: the scene's */
-    const minirt_camera* camera;       /* NULL: the scene's */
-    minirt_region region;              /* all zero: the whole image */
-    float max_dispatch_ms;             /* 0: 100 */
+    uint32_t width, height;               /* both 0: the scene's */
+    uint32_t samples;                     /* a pixel; 0: the scene's */
+    uint32_t first_sample;                /* index of the first */
+    uint32_t max_depth;                   /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
+    minirt_integrator integrator;         /* 0: the scene's */
+    minirt_light_sampling light_sampling; /* of the path tracers */
+    uint32_t seed;                        /* of the path tracers: another one gives another picture with noise of its own */
+    float clamp;                 /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
+    const minirt_camera* camera; /* NULL: the scene's */
+    minirt_region region;        /* all zero: the whole image */
+    float max_dispatch_ms;       /* 0: 100 */
     minirt_progress_callback progress; /* may be NULL */
     void* progress_user;
     minirt_stats* stats; /* may be NULL: written by minirt_render */
@@ -496,13 +548,14 @@ extern "C" __declspec(dllimport) int __stdcall FreeLibrary(void*);
 
 static_assert(sizeof(minirt_blob_header) == 64, "layout of the blob");
 static_assert(sizeof(minirt_blob_section) == 32, "layout of the blob");
-static_assert(sizeof(minirt_scene_desc) == 216, "layout of the blob");
+static_assert(sizeof(minirt_scene_desc) == 232, "layout of the blob");
 static_assert(sizeof(minirt_kernel) == 64, "layout of the blob");
-static_assert(sizeof(minirt_scene_rows) == 112, "layout shared with shaders");
-static_assert(sizeof(minirt_material) == 112, "layout shared with shaders");
-static_assert(sizeof(minirt_light) == 48, "layout shared with shaders");
+static_assert(sizeof(minirt_scene_rows) == 128, "layout shared with shaders");
+static_assert(sizeof(minirt_material) == 160, "layout shared with shaders");
+static_assert(sizeof(minirt_light) == 64, "layout shared with shaders");
 static_assert(sizeof(minirt_image) == 32, "layout shared with shaders");
-static_assert(sizeof(minirt_medium) == 80, "layout shared with shaders");
+static_assert(sizeof(minirt_pick) == 16, "layout shared with shaders");
+static_assert(sizeof(minirt_medium) == 96, "layout shared with shaders");
 static_assert(sizeof(minirt_frame) == 128, "the push constants that every device has");
 static_assert(std::is_trivially_copyable<minirt_scene_desc>::value, "read from files");
 
@@ -697,7 +750,7 @@ inline bool finiteDoubles(const double* values, int count) {
 
 inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
     const minirt_scene_desc& s = *b.scene;
-    if (!finiteDoubles(s.origin, 9) || !finiteDoubles(s.camera.position, 10) || !isfinite(s.throughput_cutoff) ||
+    if (!finiteDoubles(s.origin, 9) || !finiteDoubles(s.camera.position, 12) || !isfinite(s.throughput_cutoff) ||
         s.throughput_cutoff < 0)
         return r.fail(MINIRT_ERROR_CORRUPT, "the scene holds a number that is not finite");
     if (s.width == 0 || s.height == 0 || s.width > 16384 || s.height > 16384 || s.samples == 0 || s.max_depth > 255)

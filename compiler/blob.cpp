@@ -110,8 +110,7 @@ minirt_medium encodeMedium(const Material& m) {
     out.ior = vec4(rgb, m.ior);
     const auto term = [&c = curve](size_t k) { return static_cast<float>(c[k]); };
     out.iorCurve = {term(0), term(1), term(2), term(3)};
-    out.boundsMin.w = term(4);
-    out.boundsMax.w = term(5);
+    out.iorCurveEnd = {term(4), term(5), 0, 0};
     return out;
 }
 
@@ -122,8 +121,8 @@ std::vector<minirt_medium> encodeMedia(const Scene& scene, const Geometry& geome
         media.push_back(encodeMedium(scene.materials[geometry.bodies[volumes.order[v]].material]));
     const std::vector<Bounds> bounds = bodyBounds(geometry);
     for (uint32_t v = 0; v < volumes.count; ++v) {
-        media[v + 1].boundsMin = vec4(bounds[volumes.order[v]].min, media[v + 1].boundsMin.w);
-        media[v + 1].boundsMax = vec4(bounds[volumes.order[v]].max, media[v + 1].boundsMax.w);
+        media[v + 1].boundsMin = vec4(bounds[volumes.order[v]].min);
+        media[v + 1].boundsMax = vec4(bounds[volumes.order[v]].max);
     }
     return media;
 }

@@ -34,7 +34,8 @@ const std::map<std::string, std::string> kVariables = {
 const std::map<std::string, size_t> kRows = {{"minirt_material", MINIRT_MATERIAL_ROWS},
                                              {"minirt_light", MINIRT_LIGHT_ROWS},
                                              {"minirt_image", MINIRT_IMAGE_ROWS},
-                                             {"minirt_medium", MINIRT_MEDIUM_ROWS}};
+                                             {"minirt_medium", MINIRT_MEDIUM_ROWS},
+                                             {"minirt_pick", MINIRT_PICK_ROWS}};
 
 #define AT(type, member) \
     { #member, offsetof(type, member) }
@@ -45,18 +46,21 @@ const std::map<std::string, Layout> kInCpp = {
      {sizeof(minirt_scene_rows),
       {AT(minirt_scene_rows, gridOrigin), AT(minirt_scene_rows, gridScale), AT(minirt_scene_rows, gridPlanes),
        AT(minirt_scene_rows, background), AT(minirt_scene_rows, boundsMin), AT(minirt_scene_rows, boundsMax),
-       AT(minirt_scene_rows, counts)}}},
+       AT(minirt_scene_rows, counts), AT(minirt_scene_rows, environment)}}},
     {"minirt_material",
      {sizeof(minirt_material),
       {AT(minirt_material, diffuse), AT(minirt_material, specular), AT(minirt_material, reflect), AT(minirt_material, transmit),
-       AT(minirt_material, emission), AT(minirt_material, checker), AT(minirt_material, options)}}},
+       AT(minirt_material, emission), AT(minirt_material, checker), AT(minirt_material, options), AT(minirt_material, base),
+       AT(minirt_material, finish), AT(minirt_material, images)}}},
     {"minirt_light",
-     {sizeof(minirt_light), {AT(minirt_light, position), AT(minirt_light, intensity), AT(minirt_light, options)}}},
+     {sizeof(minirt_light),
+      {AT(minirt_light, position), AT(minirt_light, intensity), AT(minirt_light, axis), AT(minirt_light, options)}}},
     {"minirt_image", {sizeof(minirt_image), {AT(minirt_image, extent), AT(minirt_image, scale)}}},
     {"minirt_medium",
      {sizeof(minirt_medium),
-      {AT(minirt_medium, absorption), AT(minirt_medium, ior), AT(minirt_medium, iorCurve), AT(minirt_medium, boundsMin),
-       AT(minirt_medium, boundsMax)}}},
+      {AT(minirt_medium, absorption), AT(minirt_medium, ior), AT(minirt_medium, iorCurve), AT(minirt_medium, iorCurveEnd),
+       AT(minirt_medium, boundsMin), AT(minirt_medium, boundsMax)}}},
+    {"minirt_pick", {sizeof(minirt_pick), {AT(minirt_pick, entry)}}},
     {"minirt_frame",
      {sizeof(minirt_frame),
       {AT(minirt_frame, position), AT(minirt_frame, forward), AT(minirt_frame, right), AT(minirt_frame, up),

@@ -311,7 +311,7 @@ TEST_CASE("a camera inside of volumes sees as one that light reaches from outsid
     for (const Place& place : places) {
         CAPTURE(place.z);
         // One baked scene, the camera moved through its surfaces from frame to frame.
-        const minirt_camera camera = {{0, 0, place.z}, {0, 0, -10}, {0, 1, 0}, 40};
+        const minirt_camera camera = {{0, 0, place.z}, {0, 0, -10}, {0, 1, 0}, 40, 0, 0};
         minirt_render_desc desc = depthLimit(static_cast<uint32_t>(place.layers.size()));
         desc.camera = &camera;
         checkPixels(scene.render(desc), 1e-4, [&](uint32_t x, uint32_t y) -> std::optional<dvec3> {

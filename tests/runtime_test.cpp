@@ -351,7 +351,7 @@ TEST_CASE("wrong requests are refused with a message") {
     const LoadedScene scene(gpu, bakeScene(dir, kScene));
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refuses = [&](minirt_result expected, const auto& change) {
-        minirt_camera camera = {{0, 2, 6}, {0, 0.7, 0}, {0, 1, 0}, 35};
+        minirt_camera camera = {{0, 2, 6}, {0, 0.7, 0}, {0, 1, 0}, 35, 0, 0};
         minirt_render_desc desc = {};
         desc.camera = &camera;
         change(desc, camera);
@@ -466,7 +466,7 @@ TEST_CASE("recording into an image of the host equals rendering bit for bit") {
     REQUIRE(minirt_create(&desc, &context) == MINIRT_OK);
     minirt_scene* scene = nullptr;
     REQUIRE(minirt_load_file(context, bakeScene(dir, kScene).string().c_str(), &scene) == MINIRT_OK);
-    const minirt_camera moved = {{3, 2, 5}, {0, 0.5, 0}, {0, 1, 0}, 50};
+    const minirt_camera moved = {{3, 2, 5}, {0, 0.5, 0}, {0, 1, 0}, 50, 0, 0};
     const auto rendered = [&](uint32_t sample, const minirt_camera* camera) {
         std::vector<float> rgba(kSize * kSize * 4);
         minirt_render_desc render = {};

@@ -413,7 +413,7 @@ TEST_CASE("the background shows each direction where it belongs") {
             CAPTURE(direction.y);
             CAPTURE(direction.z);
             const minirt_camera camera = {
-                {0, 0, 0}, {direction.x, direction.y, direction.z}, {0.1, std::abs(direction.y) > 0.9 ? 0.0 : 1.0, 0.2}, 1};
+                {0, 0, 0}, {direction.x, direction.y, direction.z}, {0.1, std::abs(direction.y) > 0.9 ? 0.0 : 1.0, 0.2}, 1, 0, 0};
             minirt_render_desc desc = {};
             desc.camera = &camera;
             const glm::vec3 got = scene.render(desc).at(0, 0);

@@ -7,5 +7,6 @@ minirt_material fetchMaterial(uint index) {
     return minirt_material(uintBitsToFloat(texelFetch(materialRows, row)), uintBitsToFloat(texelFetch(materialRows, row + 1)),
                            uintBitsToFloat(texelFetch(materialRows, row + 2)), uintBitsToFloat(texelFetch(materialRows, row + 3)),
                            uintBitsToFloat(texelFetch(materialRows, row + 4)), uintBitsToFloat(texelFetch(materialRows, row + 5)),
-                           texelFetch(materialRows, row + 6));
+                           texelFetch(materialRows, row + 6), uintBitsToFloat(texelFetch(materialRows, row + 7)),
+                           uintBitsToFloat(texelFetch(materialRows, row + 8)), texelFetch(materialRows, row + 9));
 }

@@ -33,7 +33,8 @@ uint channelAt(uint k, uvec2 pixel) { return 1u + wavelengthEntry(pixel, frame.s
 vec3 channelShare(uint channel) { return spectrumRow(channel).rgb / float(CHANNELS); }
 
 float mediumIndex(uint medium, uint channel) {
-    float one = indexOnCurve(mediumRow(medium, 2), mediumRow(medium, 3).w, mediumRow(medium, 4).w, spectrumRow(max(channel, 1u)).w);
+    vec4 end = mediumRow(medium, 3);
+    float one = indexOnCurve(mediumRow(medium, 2), end.x, end.y, spectrumRow(max(channel, 1u)).w);
     return channel == 0u ? mediumRow(medium, 1).w : one;
 }
 

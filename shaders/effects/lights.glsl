@@ -12,7 +12,8 @@ layout(binding = MINIRT_BINDING_LIGHTS) uniform usamplerBuffer lightRows;
 
 minirt_light fetchLight(uint index) {
     int row = int(index) * MINIRT_LIGHT_ROWS;
-    return minirt_light(uintBitsToFloat(texelFetch(lightRows, row)), uintBitsToFloat(texelFetch(lightRows, row + 1)), texelFetch(lightRows, row + 2));
+    return minirt_light(uintBitsToFloat(texelFetch(lightRows, row)), uintBitsToFloat(texelFetch(lightRows, row + 1)),
+                        uintBitsToFloat(texelFetch(lightRows, row + 2)), texelFetch(lightRows, row + 3));
 }
 
 uint lightCount() { return scene.counts.x; }
