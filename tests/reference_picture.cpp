@@ -1,0 +1,137 @@
+#include "reference_picture.hpp"
+
+#include <doctest/doctest.h>
+#include <tinyexr.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+#include "statistics.hpp"
+
+using glm::dvec3;
+
+namespace test {
+namespace {
+
+/// Linear sRGB to XYZ, by rows.
+const glm::dmat3 kToXyz = glm::transpose(glm::dmat3{{0.412453, 0.357580, 0.180423},  //
+                                                    {0.212671, 0.715160, 0.072169},
+                                                    {0.019334, 0.119193, 0.950227}});
+
+XyzPicture toXyz(const float* rgba, uint32_t width, uint32_t height) {
+    XyzPicture picture{width, height, {}};
+    picture.pixels.reserve(size_t{width} * height);
+    for (size_t i = 0; i < size_t{width} * height; ++i)
+        picture.pixels.push_back(kToXyz * dvec3(rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]));
+    return picture;
+}
+
+/// One test of two means. `theirs` and `ours`: variance of each mean.
+struct MeanTest {
+    double z;
+    double p;
+};
+
+MeanTest testMeans(double difference, double scale, double theirs, double theirDof, double ours, double ourDof) {
+    const double rounding = 1e-5 * scale;  // of pixels without variance
+    const double variance = theirs + ours + rounding * rounding;
+    if (difference == 0) return {0, 1};
+    const double z = difference / std::sqrt(variance);
+    const double dof = variance * variance / (theirs * theirs / theirDof + ours * ours / ourDof + 1e-300);
+    return {z, studentTail(z, std::min(dof, 1e6))};
+}
+
+}  // namespace
+
+XyzPicture readXyz(const std::filesystem::path& path) {
+    float* rgba = nullptr;
+    int width = 0, height = 0;
+    const char* message = nullptr;
+    if (LoadEXR(&rgba, &width, &height, path.string().c_str(), &message) != TINYEXR_SUCCESS)
+        throw std::runtime_error(path.string() + ": " + (message ? message : "cannot be read"));
+    const std::unique_ptr<float, decltype(&std::free)> owner(rgba, &std::free);
+    return toXyz(rgba, static_cast<uint32_t>(width), static_cast<uint32_t>(height));
+}
+
+Reference readReference(const std::filesystem::path& folder, const std::string& name) {
+    Reference reference{readXyz(folder / (name + ".exr")), readXyz(folder / (name + "_var.exr"))};
+    for (dvec3& v : reference.variance.pixels) v = glm::max(v, dvec3(0));  // rounding
+    return reference;
+}
+
+std::pair<dvec3, dvec3> Passes::moments(size_t pixel) const {
+    const auto n = static_cast<double>(pictures.size());
+    dvec3 mean(0), squares(0);
+    for (const XyzPicture& picture : pictures) mean += picture.pixels[pixel] / n;
+    for (const XyzPicture& picture : pictures) squares += (picture.pixels[pixel] - mean) * (picture.pixels[pixel] - mean);
+    return {mean, squares / (n * (n - 1))};
+}
+
+Passes renderPasses(const LoadedScene& scene, uint32_t count, uint32_t samplesEach) {
+    Passes passes{{}, samplesEach};
+    for (uint32_t i = 0; i < count; ++i) {
+        minirt_render_desc desc = {};
+        desc.samples = samplesEach;
+        desc.seed = i + 1;
+        const Picture picture = scene.render(desc);
+        passes.pictures.push_back(toXyz(picture.rgba.data(), picture.width, picture.height));
+    }
+    return passes;
+}
+
+Agreement compare(const Reference& reference, const Passes& ours, const Selection& selected) {
+    const XyzPicture& theirs = reference.mean;
+    const auto n = static_cast<double>(ours.pictures.size());
+    Agreement agreement;
+    std::vector<double> ps;
+    std::vector<dvec3> ourMeans(ours.pictures.size(), dvec3(0));
+    dvec3 theirMean(0), theirVariance(0);
+    double squares = 0;
+    for (size_t i = 0; i < theirs.pixels.size(); ++i) {
+        if (!selected(static_cast<uint32_t>(i % theirs.width), static_cast<uint32_t>(i / theirs.width))) continue;
+        agreement.pixels++;
+        const dvec3 single = reference.variance.pixels[i];
+        const auto [mean, spread] = ours.moments(i);
+        // Where our few samples missed what is rare, they look as if they knew better: they vary at least as Mitsuba's do.
+        const dvec3 least = single / ours.samples();
+        for (int k = 0; k < 3; ++k) {
+            const bool rare = spread[k] < least[k];
+            const MeanTest test =
+                testMeans(mean[k] - theirs.pixels[i][k], theirs.pixels[i][k], single[k] / reference.samples,
+                          reference.samples - 1, rare ? least[k] : spread[k], rare ? reference.samples - 1 : n - 1);
+            ps.push_back(test.p);
+            squares += test.z * test.z;
+        }
+        for (size_t j = 0; j < ourMeans.size(); ++j) ourMeans[j] += ours.pictures[j].pixels[i];
+        theirMean += theirs.pixels[i];
+        theirVariance += single / reference.samples;
+    }
+    const double level = sidakLevel(static_cast<int>(ps.size()));
+    for (const double p : ps) {
+        agreement.rejected += p < level ? 1 : 0;
+        agreement.leastP = std::min(agreement.leastP, p);
+    }
+    agreement.rmsZ = std::sqrt(squares / static_cast<double>(ps.size()));
+    dvec3 mean(0), spread(0);
+    for (const dvec3& m : ourMeans) mean += m / n;
+    for (const dvec3& m : ourMeans) spread += (m - mean) * (m - mean) / (n * (n - 1));
+    agreement.meanRatio = mean / theirMean;
+    for (int k = 0; k < 3; ++k)
+        agreement.meanP[k] =
+            testMeans(mean[k] - theirMean[k], theirMean[k], theirVariance[k], reference.samples - 1, spread[k], n - 1).p;
+    return agreement;
+}
+
+void checkAgreement(const std::string& what, const Reference& reference, const Passes& ours, const Selection& selected) {
+    const Agreement a = compare(reference, ours, selected);
+    MESSAGE(what, ": ", a.pixels, " pixels, ", a.rejected, " of their tests reject, least p ", a.leastP, ", rms z ", a.rmsZ,
+            ", means over theirs ", a.meanRatio.x, " ", a.meanRatio.y, " ", a.meanRatio.z, " with p ", a.meanP.x, " ", a.meanP.y,
+            " ", a.meanP.z);
+    CHECK(a.pixels > 0);
+    CHECK(a.rejected == 0);
+    for (int k = 0; k < 3; ++k) CHECK(a.meanP[k] > sidakLevel(3));
+}
+
+}  // namespace test
