@@ -28,12 +28,12 @@ XyzPicture toXyz(const float* rgba, uint32_t width, uint32_t height) {
     return picture;
 }
 
-/// One test of two means. `theirs` and `ours`: variance of each mean.
 struct MeanTest {
     double z;
     double p;
 };
 
+/// `difference` of two means of about `scale`, with the variance of each and its degrees of freedom.
 MeanTest testMeans(double difference, double scale, double theirs, double theirDof, double ours, double ourDof) {
     const double rounding = 1e-5 * scale;  // of pixels without variance
     const double variance = theirs + ours + rounding * rounding;
@@ -44,6 +44,17 @@ MeanTest testMeans(double difference, double scale, double theirs, double theirD
 }
 
 }  // namespace
+
+/// Ours against theirs in a pixel and a channel.
+MeanTest testPixel(const Reference& reference, const Passes& ours, size_t pixel, int channel) {
+    const double single = reference.variance.pixels[pixel][channel], theirs = reference.mean.pixels[pixel][channel];
+    const auto [mean, spread] = ours.moments(pixel);
+    // Where our few samples missed what is rare, they look as if they knew better: they vary at least as Mitsuba's do.
+    const double least = single / ours.samples(), dof = reference.samples - 1;
+    const bool rare = spread[channel] < least;
+    return testMeans(mean[channel] - theirs, theirs, single / reference.samples, dof, rare ? least : spread[channel],
+                     rare ? dof : static_cast<double>(ours.pictures.size()) - 1);
+}
 
 XyzPicture readXyz(const std::filesystem::path& path) {
     float* rgba = nullptr;
@@ -74,7 +85,7 @@ Passes renderPasses(const LoadedScene& scene, uint32_t count, uint32_t samplesEa
     for (uint32_t i = 0; i < count; ++i) {
         minirt_render_desc desc = {};
         desc.samples = samplesEach;
-        desc.seed = i + 1;
+        desc.seed = i + 1; desc.first_sample = i * samplesEach;
         const Picture picture = scene.render(desc);
         passes.pictures.push_back(toXyz(picture.rgba.data(), picture.width, picture.height));
     }
@@ -92,21 +103,14 @@ Agreement compare(const Reference& reference, const Passes& ours, const Selectio
     for (size_t i = 0; i < theirs.pixels.size(); ++i) {
         if (!selected(static_cast<uint32_t>(i % theirs.width), static_cast<uint32_t>(i / theirs.width))) continue;
         agreement.pixels++;
-        const dvec3 single = reference.variance.pixels[i];
-        const auto [mean, spread] = ours.moments(i);
-        // Where our few samples missed what is rare, they look as if they knew better: they vary at least as Mitsuba's do.
-        const dvec3 least = single / ours.samples();
         for (int k = 0; k < 3; ++k) {
-            const bool rare = spread[k] < least[k];
-            const MeanTest test =
-                testMeans(mean[k] - theirs.pixels[i][k], theirs.pixels[i][k], single[k] / reference.samples,
-                          reference.samples - 1, rare ? least[k] : spread[k], rare ? reference.samples - 1 : n - 1);
+            const MeanTest test = testPixel(reference, ours, i, k);
             ps.push_back(test.p);
             squares += test.z * test.z;
         }
         for (size_t j = 0; j < ourMeans.size(); ++j) ourMeans[j] += ours.pictures[j].pixels[i];
         theirMean += theirs.pixels[i];
-        theirVariance += single / reference.samples;
+        theirVariance += reference.variance.pixels[i] / reference.samples;
     }
     const double level = sidakLevel(static_cast<int>(ps.size()));
     for (const double p : ps) {
@@ -132,6 +136,25 @@ void checkAgreement(const std::string& what, const Reference& reference, const P
     CHECK(a.pixels > 0);
     CHECK(a.rejected == 0);
     for (int k = 0; k < 3; ++k) CHECK(a.meanP[k] > sidakLevel(3));
+}
+
+void checkBetween(const std::string& what, const Reference& reference, const Passes& lower, const Passes& upper) {
+    const size_t pixels = reference.mean.pixels.size();
+    const double level = sidakLevel(static_cast<int>(6 * pixels));
+    size_t below = 0, above = 0;
+    dvec3 low(0), middle(0), high(0);
+    for (size_t i = 0; i < pixels; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const MeanTest lowest = testPixel(reference, lower, i, k), highest = testPixel(reference, upper, i, k);
+            below += lowest.z > 0 && lowest.p / 2 < level ? 1 : 0;
+            above += highest.z < 0 && highest.p / 2 < level ? 1 : 0;
+        }
+        low += lower.moments(i).first, middle += reference.mean.pixels[i], high += upper.moments(i).first;
+    }
+    MESSAGE(what, ": ", below, " tests find the reference below, ", above,
+            " above; mean over that of the reference: ", low.y / middle.y, " and ", high.y / middle.y);
+    CHECK(below == 0);
+    CHECK(above == 0);
 }
 
 }  // namespace test

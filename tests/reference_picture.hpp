@@ -61,4 +61,7 @@ Agreement compare(const Reference& reference, const Passes& ours, const Selectio
 /// Fails the running case unless all tests of `compare` accept, and says what came out.
 void checkAgreement(const std::string& what, const Reference& reference, const Passes& ours, const Selection& selected);
 
+/// Fails the running case where a pixel of the reference is darker than `lower` or brighter than `upper`, by the same level.
+void checkBetween(const std::string& what, const Reference& reference, const Passes& lower, const Passes& upper);
+
 }  // namespace test

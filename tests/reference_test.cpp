@@ -240,3 +240,25 @@ TEST_CASE("a wooden ball under a lamp, a point light and in a museum") {
     checkAgreement("textured_diffuse", readReference(mitsuba("bsdf_spheres/refs"), "test_textured_diffuse_ref_rgb"),
                    renderPasses(scene, kPasses, kSamples), [](uint32_t, uint32_t) { return true; });
 }
+
+TEST_CASE("three mirrors in a museum lie between a brighter and a darker kind of mirror") {
+    if (!haveShared(kReferences)) return;
+    GpuContext gpu;
+    if (!gpu) return;
+    const TemporaryDir dir;
+    writePanorama(dir);
+    const Reference reference = readReference(mitsuba("infinite_mirrors/refs"), "scene_ref_rgb");
+    // Their metal, of index 0.789 + 6.15 i, reflects 0.923068 along the normal, 0.878070 at least (at 80 degrees), 1 at grazing incidence. Ours,
+    // after Schlick, has the first and the last and never reflects less; a phong mirror reflects the same share everywhere.
+    const auto render = [&](const std::string& mirror) {
+        const LoadedScene scene(gpu, bakeScene(dir, "{" + cameraAndRender(5, 32, 8) + "," + kPanorama + R"(,"materials":{"m":)" +
+                                                        mirror + R"(},"objects":[)" + ball("m", {0, -1.05, -0.9}) + "," +
+                                                        ball("m", {0, 1.05, -0.9}) + "," + ball("m", {0, 0, 0.9}) + "]}"));
+        return renderPasses(scene, kPasses, kSamples);
+    };
+    const auto metal = [](double f0) {
+        return R"({"model":"pbr","metallic":1,"roughness":0,"baseColor":)" + json(dvec3(f0)) + "}";
+    };
+    checkBetween("infinite_mirrors", reference, render(R"({"model":"phong","diffuse":0,"reflect":0.878070})"),
+                 render(metal(0.923068)));
+}
