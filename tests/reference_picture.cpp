@@ -28,6 +28,17 @@ XyzPicture toXyz(const float* rgba, uint32_t width, uint32_t height) {
     return picture;
 }
 
+/// Squares of `side` pixels become one, with their mean.
+XyzPicture shrink(const XyzPicture& fine, uint32_t side) {
+    XyzPicture picture{fine.width / side, fine.height / side, {}};
+    picture.pixels.resize(size_t{picture.width} * picture.height);
+    for (size_t i = 0; i < fine.pixels.size(); ++i) {
+        const size_t x = i % fine.width / side, y = i / fine.width / side;
+        picture.pixels[y * picture.width + x] += fine.pixels[i] / static_cast<double>(side * side);
+    }
+    return picture;
+}
+
 struct MeanTest {
     double z;
     double p;
@@ -81,13 +92,17 @@ std::pair<dvec3, dvec3> Passes::moments(size_t pixel) const {
 }
 
 Passes renderPasses(const LoadedScene& scene, uint32_t count, uint32_t samplesEach) {
+    constexpr uint32_t kSplit = 4;
+    minirt_scene_desc defaults;
+    minirt_get_scene_desc(scene.get(), &defaults);
     Passes passes{{}, samplesEach};
     for (uint32_t i = 0; i < count; ++i) {
         minirt_render_desc desc = {};
-        desc.samples = samplesEach;
-        desc.seed = i + 1; desc.first_sample = i * samplesEach;
+        desc.width = kSplit * defaults.width, desc.height = kSplit * defaults.height;
+        desc.samples = samplesEach / (kSplit * kSplit);
+        desc.seed = i + 1;
         const Picture picture = scene.render(desc);
-        passes.pictures.push_back(toXyz(picture.rgba.data(), picture.width, picture.height));
+        passes.pictures.push_back(shrink(toXyz(picture.rgba.data(), picture.width, picture.height), kSplit));
     }
     return passes;
 }

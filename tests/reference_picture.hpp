@@ -41,6 +41,8 @@ struct Passes {
     std::pair<glm::dvec3, glm::dvec3> moments(size_t pixel) const;
 };
 
+/// By the box filter, `samplesEach` a pixel, a multiple of 16: every pixel is a square of 4 x 4 of a larger picture, since devices like these
+/// do large pictures of few samples sooner than small ones of many.
 Passes renderPasses(const LoadedScene& scene, uint32_t count, uint32_t samplesEach);
 
 /// Which pixels are compared.
