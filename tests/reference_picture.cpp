@@ -91,6 +91,15 @@ std::pair<dvec3, dvec3> Passes::moments(size_t pixel) const {
     return {mean, squares / (n * (n - 1))};
 }
 
+void Passes::replace(const Passes& other, const Selection& selected) {
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        XyzPicture& picture = pictures[i];
+        for (size_t at = 0; at < picture.pixels.size(); ++at)
+            if (selected(static_cast<uint32_t>(at % picture.width), static_cast<uint32_t>(at / picture.width)))
+                picture.pixels[at] = other.pictures[i].pixels[at];
+    }
+}
+
 Passes renderPasses(const LoadedScene& scene, uint32_t count, uint32_t samplesEach) {
     constexpr uint32_t kSplit = 4;
     minirt_scene_desc defaults;
@@ -143,11 +152,16 @@ Agreement compare(const Reference& reference, const Passes& ours, const Selectio
     return agreement;
 }
 
-void checkAgreement(const std::string& what, const Reference& reference, const Passes& ours, const Selection& selected) {
+Agreement tellAgreement(const std::string& what, const Reference& reference, const Passes& ours, const Selection& selected) {
     const Agreement a = compare(reference, ours, selected);
     MESSAGE(what, ": ", a.pixels, " pixels, ", a.rejected, " of their tests reject, least p ", a.leastP, ", rms z ", a.rmsZ,
             ", means over theirs ", a.meanRatio.x, " ", a.meanRatio.y, " ", a.meanRatio.z, " with p ", a.meanP.x, " ", a.meanP.y,
             " ", a.meanP.z);
+    return a;
+}
+
+void checkAgreement(const std::string& what, const Reference& reference, const Passes& ours, const Selection& selected) {
+    const Agreement a = tellAgreement(what, reference, ours, selected);
     CHECK(a.pixels > 0);
     CHECK(a.rejected == 0);
     for (int k = 0; k < 3; ++k) CHECK(a.meanP[k] > sidakLevel(3));

@@ -31,6 +31,9 @@ struct Reference {
 /// `name`.exr and `name`_var.exr.
 Reference readReference(const std::filesystem::path& folder, const std::string& name);
 
+/// Which pixels are meant.
+using Selection = std::function<bool(uint32_t x, uint32_t y)>;
+
 /// Independent pictures of one scene.
 struct Passes {
     std::vector<XyzPicture> pictures;
@@ -39,14 +42,13 @@ struct Passes {
     double samples() const { return static_cast<double>(pictures.size()) * samplesEach; }
     /// Of a pixel: the mean of the pictures, and the variance of that mean.
     std::pair<glm::dvec3, glm::dvec3> moments(size_t pixel) const;
+    /// Takes the selected pixels from passes of as many pictures.
+    void replace(const Passes& other, const Selection& selected);
 };
 
 /// By the box filter, `samplesEach` a pixel, a multiple of 16: every pixel is a square of 4 x 4 of a larger picture, since devices like these
 /// do large pictures of few samples sooner than small ones of many.
 Passes renderPasses(const LoadedScene& scene, uint32_t count, uint32_t samplesEach);
-
-/// Which pixels are compared.
-using Selection = std::function<bool(uint32_t x, uint32_t y)>;
 
 struct Agreement {
     size_t pixels = 0;
@@ -60,7 +62,10 @@ struct Agreement {
 /// Tests each pixel's X, Y and Z for equal means, at a level that rejects equal pictures once in a hundred (Sidak), and the means over all pixels.
 Agreement compare(const Reference& reference, const Passes& ours, const Selection& selected);
 
-/// Fails the running case unless all tests of `compare` accept, and says what came out.
+/// Says what `compare` gives.
+Agreement tellAgreement(const std::string& what, const Reference& reference, const Passes& ours, const Selection& selected);
+
+/// The same, and fails the running case unless all tests accept.
 void checkAgreement(const std::string& what, const Reference& reference, const Passes& ours, const Selection& selected);
 
 /// Fails the running case where a pixel of the reference is darker than `lower` or brighter than `upper`, by the same level.
