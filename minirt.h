@@ -110,6 +110,17 @@ typedef struct minirt_uvec4 {
 #define MINIRT_TRAVERSAL_WORDS 10u
 #define MINIRT_SEGMENT_WORDS(volumes) (10u + (volumes))
 
+/* Queues of the wavefront: each has a header, which an indirect dispatch reads: groups, 1, 1, paths; then come the paths of each. Of the four
+   from the first even or the first odd one on, a round empties all. */
+#define MINIRT_QUEUE_EVEN_RAYS 0u
+#define MINIRT_QUEUE_EVEN_SHADOWS 1u
+#define MINIRT_QUEUE_HITS 2u
+#define MINIRT_QUEUE_MISSES 3u
+#define MINIRT_QUEUE_ODD_RAYS 4u
+#define MINIRT_QUEUE_ODD_SHADOWS 5u
+#define MINIRT_QUEUE_COUNT 6u
+#define MINIRT_QUEUE_HEADER_WORDS 4u
+
 /* Node references. */
 #define MINIRT_LEAF 0x80000000u
 

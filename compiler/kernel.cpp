@@ -49,6 +49,7 @@ const std::vector<std::string> kPathParts = {
     "path/bsdf.glsl",           "effects/light_picking.glsl", "effects/environment_light.glsl",
     "effects/area_lights.glsl", "path/lights.glsl",           "sampling/filter.glsl",
     "path/path.glsl",           "path/vertex.glsl",
+    "path/queues.glsl",
 };
 
 const std::string kHeader = R"(#version 460
