@@ -232,7 +232,7 @@ void arrive(inout TreeWalk walk, bool hit, Encounter e) {
     float distance = hit ? walk.hitT : MINIRT_RAY_END;
     walk.radiance += walk.segment.throughput * inscattered(medium, distance);
     walk.segment.throughput *= transmittance(medium, distance);
-    vec3 shine = hit ? (e.boundary.skipped ? vec3(0.0) : emission(e.material)) : backgroundRadiance(walk.segment.direction);
+    vec3 shine = hit ? (e.boundary.skipped ? vec3(0.0) : emission(e.material, e.entering)) : backgroundRadiance(walk.segment.direction);
     walk.radiance += walk.segment.throughput * shine;
     walk.light = e.boundary.skipped ? lightCount() : 0u;
 }
