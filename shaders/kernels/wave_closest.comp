@@ -6,6 +6,11 @@ void main() {
     Traversal ray = loadRay(slot, false);
     uint steps = 0u;
     traverse(ray, steps, STEP_BUDGET);
+    bool missed = isDone(ray) && ray.slot == MINIRT_NONE;
+    if (missed && !MISSES_MATTER) {
+        endPath(slot);
+        return;
+    }
     saveRay(slot, ray);
-    pushPath(!isDone(ray) ? raysOf(frame.sampling.w + 1u) : ray.slot == MINIRT_NONE ? MINIRT_QUEUE_MISSES : MINIRT_QUEUE_HITS, slot);
+    pushPath(!isDone(ray) ? raysOf(frame.sampling.w + 1u) : missed ? MINIRT_QUEUE_MISSES : MINIRT_QUEUE_HITS, slot);
 }

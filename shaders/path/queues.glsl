@@ -46,6 +46,14 @@ Traversal loadRay(uint slot, bool anyHit) {
     return takeTraversal(slot, word, anyHit);
 }
 
+/// A path that leaves the scene where nothing shines, and no ray needs to know which volumes it has left, is done.
+const bool MISSES_MATTER = BACKGROUND_SHINES || TRACKS_VOLUMES || MEDIA_SHINE;
+
+void endPath(uint slot) {
+    uint word = 0u;
+    putWord(slot, word, PHASE_DONE);
+}
+
 /// Where a path waits for what it does next; one that is done waits nowhere.
 void queuePath(uint slot, Path path, Traversal ray, uint shadows, uvec2 rays) {
     savePath(slot, path);
