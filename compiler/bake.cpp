@@ -89,7 +89,7 @@ int bake(const BakeOptions& options) {
     const Geometry geometry = flatten(scene, diagnostics);
     const Bvh bvh = buildBvh(geometry, options.threads);
     const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
-    const Volumes volumes = analyseVolumes(scene, geometry, diagnostics);
+    const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, options.threads);
     EffectSet effects = analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT);
     if (options.allEffects) includeAll(effects);
     const std::vector<Kernel> kernels = {compileKernel("whitted", effects)};
