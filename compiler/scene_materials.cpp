@@ -92,6 +92,14 @@ void readIndex(const JsonObject& object, Material& material) {
     }
 }
 
+/// Of an opaque material with keys that say what is inside.
+void warnOfNoInside(const SceneFile& file, const JsonObject& object, const std::string& what) {
+    for (const char* key : {"attenuationColor", "attenuationDistance", "inscatter", "dispersion", "glass"})
+        if (const JsonValue* value = object.find(key))
+            file.diagnostics.warn(file.at(*value), what + " is opaque: '" + key + "' tells of an inside that it does not have",
+                                  "give it 'transmission' or leave the key out");
+}
+
 Material readPbr(SceneFile& file, const JsonValue& value, const std::string& what, Scene& scene) {
     const JsonObject object(file, value, what, kPbrKeys);
     const double metallic = object.number("metallic", 0, kZeroToOne);
@@ -117,6 +125,7 @@ Material readPbr(SceneFile& file, const JsonValue& value, const std::string& wha
     material.transmit = baseColor * static_cast<float>(transmission);
     material.fresnel = transmission > 0;
     readIndex(object, material);
+    if (transmission == 0) warnOfNoInside(file, object, what);
     material.emission = object.color("emissive", glm::vec3(0), kNotNegative);
     return material;
 }

@@ -196,6 +196,20 @@ TEST_CASE("a mesh that is not closed is an error with the number of open edges a
     CHECK(builder.error() == "");
 }
 
+TEST_CASE("of an open mesh with a material of its .mtl the advice is one that can be followed there") {
+    Builder builder;
+    ClosedMesh open = box();
+    open.faces.resize(10);
+    builder.mesh("open.obj", open, {}, kNone);
+    builder.scene.meshes[0].materials = {kGlass};
+    for (Face& face : builder.scene.meshes[0].faces) face.material = 0;
+    CHECK(contains(builder.error(),
+                   "; close the mesh, or make its material a thin sheet: 'Ni 1' in the .mtl file, or name one with "
+                   "\"thin\": true in the scene file"));
+    builder.scene.meshes[0].materials = {kThin};
+    CHECK(builder.error() == "");
+}
+
 TEST_CASE("a rectangle of glass is open") {
     Builder builder;
     builder.rectangle("pane", {}, kGlass);
