@@ -414,14 +414,16 @@ typedef struct minirt_blob {
     const minirt_material* materials;
     const minirt_light* lights;
     const minirt_image* images;
-    const minirt_medium* media;  /* one more than there are volumes, or none at all */
-    const minirt_vec4* spectrum; /* 2^MINIRT_SPECTRUM_BITS rows, or none */
-    const uint16_t* texels;      /* 4 half floats each: linear rgba */
+    const minirt_medium* media;     /* one more than there are volumes, or none at all */
+    const minirt_vec4* spectrum;    /* 2^MINIRT_SPECTRUM_BITS rows, or none */
+    const minirt_pick* emitters;    /* lights to pick from, or none */
+    const minirt_pick* environment; /* cells of the environment to pick from, or none */
+    const uint16_t* texels;         /* 4 half floats each: linear rgba */
     const minirt_kernel* kernels;
     const uint8_t* spirv;
     const char* explain; /* JSON: effects with their reasons, objects, sizes (docs/blob_format.md); not terminated */
     uint64_t node_count, primitive_count, normal_count, uv_count, material_count, light_count, image_count, medium_count,
-        spectrum_count, texel_count, kernel_count, spirv_size, explain_size, total_size;
+        spectrum_count, emitter_count, environment_count, texel_count, kernel_count, spirv_size, explain_size, total_size;
 } minirt_blob;
 
 typedef struct minirt_validation {
@@ -733,6 +735,8 @@ inline minirt_result findSections(BlobReader& r, const minirt_blob_section* tabl
     blob.images = finder.find<minirt_image>("IMAGES", sizeof(minirt_image), &blob.image_count, false);
     blob.media = finder.find<minirt_medium>("MEDIA", sizeof(minirt_medium), &blob.medium_count, false);
     blob.spectrum = finder.find<minirt_vec4>("SPECTRUM", 16, &blob.spectrum_count, false);
+    blob.emitters = finder.find<minirt_pick>("EMITTERS", sizeof(minirt_pick), &blob.emitter_count, false);
+    blob.environment = finder.find<minirt_pick>("ENVIRON", sizeof(minirt_pick), &blob.environment_count, false);
     blob.texels = finder.find<uint16_t>("TEXELS", 8, &blob.texel_count, false);
     blob.kernels = finder.find<minirt_kernel>("KERNELS", sizeof(minirt_kernel), &blob.kernel_count, true);
     blob.spirv = finder.find<uint8_t>("SPIRV", 4, &blob.spirv_size, true);
@@ -748,6 +752,11 @@ inline bool finiteDoubles(const double* values, int count) {
     return true;
 }
 
+/* Of bits of a float: 0 to 1. */
+inline bool isProbability(uint32_t bits) {
+    return bits <= 0x3f800000u;
+}
+
 inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
     const minirt_scene_desc& s = *b.scene;
     if (!finiteDoubles(s.origin, 9) || !finiteDoubles(s.camera.position, 12) || !isfinite(s.throughput_cutoff) ||
@@ -755,6 +764,7 @@ inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
         return r.fail(MINIRT_ERROR_CORRUPT, "the scene holds a number that is not finite");
     if (s.width == 0 || s.height == 0 || s.width > 16384 || s.height > 16384 || s.samples == 0 || s.max_depth > 255)
         return r.fail(MINIRT_ERROR_CORRUPT, "defaults of the rendering are out of range");
+    if (s.camera.aperture < 0 || s.camera.focus_distance <= 0) return r.fail(MINIRT_ERROR_CORRUPT, "a lens that is none");
     if (s.integrator < MINIRT_INTEGRATOR_WHITTED || s.integrator > MINIRT_INTEGRATOR_WAVEFRONT)
         return r.fail(MINIRT_ERROR_CORRUPT, "unknown integrator %llu", s.integrator);
     if (s.bvh_depth == 0 || s.bvh_depth > 64) return r.fail(MINIRT_ERROR_CORRUPT, "a hierarchy of depth %llu", s.bvh_depth);
@@ -770,6 +780,13 @@ inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
     if (s.volume_capacity > 64) return r.fail(MINIRT_ERROR_CORRUPT, "lists of %llu volumes", s.volume_capacity);
     if (rows.counts.y != MINIRT_NONE && rows.counts.y >= b.image_count)
         return r.fail(MINIRT_ERROR_CORRUPT, "no background image %llu", rows.counts.y);
+    if (rows.counts.w != b.emitter_count)
+        return r.fail(MINIRT_ERROR_CORRUPT, "%llu emitters in a section of %llu", rows.counts.w, b.emitter_count);
+    if (uint64_t(rows.environment.x) * rows.environment.y != b.environment_count)
+        return r.fail(MINIRT_ERROR_CORRUPT, "%llu columns of the environment do not fit its %llu cells", rows.environment.x,
+                      b.environment_count);
+    if (!isProbability(rows.environment.z) || rows.environment.w > MINIRT_FILTER_GAUSSIAN)
+        return r.fail(MINIRT_ERROR_CORRUPT, "no such filter, or no such probability of the environment");
     return MINIRT_OK;
 }
 
@@ -834,6 +851,39 @@ inline minirt_result checkPrimitives(BlobReader& r, const minirt_blob& b) {
     return MINIRT_OK;
 }
 
+/* What an entry of "EMITTERS" stands for is there. */
+inline bool isEmitter(const minirt_blob& b, uint32_t what) {
+    const uint32_t index = what & MINIRT_EMITTER_INDEX;
+    switch (what & ~MINIRT_EMITTER_INDEX) {
+        case MINIRT_EMITTER_PRIMITIVE:
+            return index < b.primitive_count;
+        case MINIRT_EMITTER_LIGHT:
+            return index < b.light_count;
+        case MINIRT_EMITTER_ENVIRONMENT:
+            return index == 0 && b.environment_count > 0;
+        default:
+            return false;
+    }
+}
+
+inline minirt_result checkPicks(BlobReader& r, const minirt_blob& b) {
+    for (uint64_t i = 0; i < b.emitter_count; ++i) {
+        const minirt_uvec4& entry = b.emitters[i].entry;
+        if (!isEmitter(b, entry.x) || entry.y >= b.emitter_count || !isProbability(entry.w))
+            return r.fail(MINIRT_ERROR_CORRUPT, "emitter %llu is none", i);
+    }
+    for (uint64_t i = 0; i < b.environment_count; ++i) {
+        const minirt_uvec4& entry = b.environment[i].entry;
+        if (entry.x != 0 || entry.y >= b.environment_count || !isProbability(entry.w))
+            return r.fail(MINIRT_ERROR_CORRUPT, "cell %llu of the environment is none", i);
+    }
+    return MINIRT_OK;
+}
+
+inline bool isImage(const minirt_blob& b, uint32_t image) {
+    return image == MINIRT_NONE || image < b.image_count;
+}
+
 inline bool isPlainMaterial(const minirt_blob& b, uint32_t index) {
     return index < b.material_count && (b.materials[index].options.x & MINIRT_MATERIAL_CHECKER) == 0;
 }
@@ -841,21 +891,24 @@ inline bool isPlainMaterial(const minirt_blob& b, uint32_t index) {
 inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
     for (uint64_t i = 0; i < b.material_count; ++i) {
         const minirt_material& m = b.materials[i];
-        if (firstNonFinite(&m, 1, 0, 24) != 1)
+        if (firstNonFinite(&m, 1, 0, 24) != 1 || firstNonFinite(&m.base, 1, 0, 8) != 1)
             return r.fail(MINIRT_ERROR_CORRUPT, "material %llu holds a number that is not finite", i);
-        if (m.options.y != MINIRT_NONE && m.options.y >= b.image_count)
+        if (m.emission.w < 0) return r.fail(MINIRT_ERROR_CORRUPT, "material %llu is picked with a negative density", i);
+        if (!isImage(b, m.options.y) || !isImage(b, m.images.x) || !isImage(b, m.images.y) || !isImage(b, m.images.z))
             return r.fail(MINIRT_ERROR_CORRUPT, "material %llu has no image", i);
         if ((m.options.x & MINIRT_MATERIAL_CHECKER) &&
             (!isPlainMaterial(b, m.options.z) || !isPlainMaterial(b, m.options.w) || m.checker.w <= 0))
             return r.fail(MINIRT_ERROR_CORRUPT, "material %llu is no valid checker", i);
     }
-    if (b.light_count && firstNonFinite(b.lights, b.light_count, 12, 8) != b.light_count)
+    if (b.light_count && firstNonFinite(b.lights, b.light_count, 16, 12) != b.light_count)
         return r.fail(MINIRT_ERROR_CORRUPT, "a light is not finite");
     for (uint64_t i = 0; i < b.image_count; ++i) {
         const minirt_image& image = b.images[i];
         const uint64_t texels = uint64_t(image.extent.x) * image.extent.y;
         if (texels == 0 || image.extent.z > b.texel_count || texels > b.texel_count - image.extent.z || !isfinite(image.scale.x))
             return r.fail(MINIRT_ERROR_CORRUPT, "image %llu lies outside of the texels", i);
+        if (image.extent.w >= 2 * MINIRT_IMAGE_MIRROR_V)
+            return r.fail(MINIRT_ERROR_CORRUPT, "image %llu wraps in an unknown way", i);
     }
     for (uint64_t i = 0; i < b.medium_count; ++i) {
         const minirt_medium& m = b.media[i];
@@ -892,6 +945,10 @@ inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads corners that are not there", i);
         if ((k.bindings >> MINIRT_BINDING_MEDIA & 1u) && !b.medium_count)
             return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu reads media that are not there", i);
+        if ((k.bindings >> MINIRT_BINDING_EMITTERS & 1u) && !b.emitter_count)
+            return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu picks emitters that are not there", i);
+        if ((k.bindings >> MINIRT_BINDING_ENVIRONMENT & 1u) && !b.environment_count)
+            return r.fail(MINIRT_ERROR_CORRUPT, "kernel %llu picks cells of an environment that is not there", i);
     }
     return MINIRT_OK;
 }
@@ -911,7 +968,8 @@ inline minirt_result validate(const void* data, size_t size, minirt_blob* out, m
     if (!depth) return r.fail(MINIRT_ERROR_OUT_OF_MEMORY, "no memory to check the hierarchy");
     checkNodes(r, blob, depth);
     hostRelease(allocator, depth);
-    if (r.result || checkPrimitives(r, blob) || checkAppearance(r, blob) || checkKernels(r, blob)) return r.result;
+    if (r.result || checkPrimitives(r, blob) || checkAppearance(r, blob) || checkPicks(r, blob) || checkKernels(r, blob))
+        return r.result;
     if (out) *out = blob;
     return MINIRT_OK;
 }
@@ -1584,6 +1642,8 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
         {MINIRT_BINDING_TEXELS, b.texels, b.texel_count * 8},
         {MINIRT_BINDING_MEDIA, b.media, b.medium_count * sizeof *b.media},
         {MINIRT_BINDING_SPECTRUM, b.spectrum, b.spectrum_count * sizeof *b.spectrum},
+        {MINIRT_BINDING_EMITTERS, b.emitters, b.emitter_count * sizeof *b.emitters},
+        {MINIRT_BINDING_ENVIRONMENT, b.environment, b.environment_count * sizeof *b.environment},
     };
     Buffer staging;
     minirt_result result = MINIRT_OK;

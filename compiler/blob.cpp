@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "spectrum.hpp"
@@ -26,35 +27,64 @@ float asFloat(uint32_t bits) {
     return value;
 }
 
-/// Which images the blob holds, and where: images that no included effect reads stay out. A file that is both background and texture
-/// is held twice, as the two wrap differently.
-struct ImagePlan {
-    std::vector<uint32_t> chosen;     // blob image -> scene image
-    std::vector<uint32_t> textureOf;  // scene image -> blob image or kNone
-    uint32_t background = kNone;      // blob image
+/// Which images the blob holds, and where: images that no included effect reads stay out. One that wraps in several ways is several images
+/// over the same texels.
+class ImagePlan {
+public:
+    struct Place {
+        uint32_t image;  // of the scene
+        uint32_t flags;  // MINIRT_IMAGE_
+    };
 
-    uint32_t texture(uint32_t image) const { return image == kNone ? kNone : textureOf[image]; }
-    bool repeats(uint32_t place) const { return place != background; }
+    ImagePlan(const Scene& scene, const EffectSet& effects) : effects_(effects) {
+        if (effects.has(Effect::backgroundImage)) background_ = add(scene.background.image, 0);
+        for (const Material& material : scene.materials) {
+            add(diffuseOf(material), flagsOf(material));
+            add(surfaceOf(material), flagsOf(material));
+            add(normalOf(material), flagsOf(material));
+            add(emissionOf(material), flagsOf(material));
+        }
+    }
+
+    const std::vector<Place>& places() const { return places_; }
+    /// Indices into places(), or kNone.
+    uint32_t background() const { return background_; }
+    uint32_t diffuse(const Material& m) const { return find(diffuseOf(m), flagsOf(m)); }
+    uint32_t surface(const Material& m) const { return find(surfaceOf(m), flagsOf(m)); }
+    uint32_t normal(const Material& m) const { return find(normalOf(m), flagsOf(m)); }
+    uint32_t emission(const Material& m) const { return find(emissionOf(m), flagsOf(m)); }
+
+private:
+    static uint32_t flagsOf(const Material& m) {
+        return m.wrap == Wrap::repeat   ? MINIRT_IMAGE_REPEAT_V
+               : m.wrap == Wrap::mirror ? MINIRT_IMAGE_MIRROR_U | MINIRT_IMAGE_MIRROR_V
+                                        : MINIRT_IMAGE_CLAMP_U;
+    }
+    uint32_t diffuseOf(const Material& m) const { return reads({Effect::textures, Effect::alpha}) ? m.diffuseTexture : kNone; }
+    uint32_t surfaceOf(const Material& m) const { return reads({Effect::surfaceMaps}) ? m.surfaceTexture : kNone; }
+    uint32_t normalOf(const Material& m) const { return reads({Effect::normalMaps}) ? m.normalTexture : kNone; }
+    uint32_t emissionOf(const Material& m) const { return reads({Effect::emissionMaps}) ? m.emissionTexture : kNone; }
+    bool reads(std::initializer_list<Effect> any) const {
+        return std::any_of(any.begin(), any.end(), [&](Effect effect) { return effects_.has(effect); });
+    }
+
+    uint32_t find(uint32_t image, uint32_t flags) const {
+        const auto same = [&](const Place& place) { return place.image == image && place.flags == flags; };
+        const auto found = std::find_if(places_.begin(), places_.end(), same);
+        return found == places_.end() ? kNone : static_cast<uint32_t>(found - places_.begin());
+    }
+    uint32_t add(uint32_t image, uint32_t flags) {
+        if (image != kNone && find(image, flags) == kNone) places_.push_back({image, flags});
+        return find(image, flags);
+    }
+
+    const EffectSet& effects_;
+    std::vector<Place> places_;
+    uint32_t background_ = kNone;
 };
 
-ImagePlan planImages(const Scene& scene, const EffectSet& effects) {
-    ImagePlan plan;
-    plan.textureOf.assign(scene.images.size(), kNone);
-    const auto choose = [&](uint32_t image, uint32_t& place) {
-        if (image == kNone || place != kNone) return;
-        place = static_cast<uint32_t>(plan.chosen.size());
-        plan.chosen.push_back(image);
-    };
-    if (effects.has(Effect::backgroundImage)) choose(scene.background.image, plan.background);
-    if (!effects.has(Effect::textures)) return plan;
-    for (const Material& material : scene.materials) {
-        if (material.diffuseTexture != kNone) choose(material.diffuseTexture, plan.textureOf[material.diffuseTexture]);
-    }
-    return plan;
-}
-
 /// Appends the image's texels as half floats; values beyond their range share a factor.
-minirt_image encodeImage(const Image& image, bool repeats, std::vector<uint16_t>& texels) {
+minirt_image encodeImage(const Image& image, std::vector<uint16_t>& texels) {
     float largest = 0;
     for (const glm::vec4& texel : image.texels) largest = std::max({largest, texel.x, texel.y, texel.z});
     const float scale = largest > kLargestHalf ? largest / kLargestHalf : 1.0f;
@@ -63,7 +93,7 @@ minirt_image encodeImage(const Image& image, bool repeats, std::vector<uint16_t>
     for (const glm::vec4& texel : image.texels) {
         for (int k = 0; k < 4; ++k) texels.push_back(glm::packHalf1x16(k < 3 ? texel[k] / scale : texel[k]));
     }
-    return {{image.width, image.height, first, repeats ? MINIRT_IMAGE_REPEAT_V : 0u}, {scale, 0, 0, 0}};
+    return {{image.width, image.height, first, 0}, {scale, 0, 0, 0}};
 }
 
 /// The part of `origin` that a pattern with cells of `scale` can see.
@@ -71,18 +101,29 @@ glm::vec3 checkerOffset(const glm::dvec3& origin, double scale) {
     return glm::vec3(origin - 2.0 * scale * glm::floor(origin / (2.0 * scale)));
 }
 
-minirt_material encodeMaterial(const Material& m, const Geometry& geometry, const ImagePlan& images) {
+uint32_t flagsOf(const Material& m) {
+    const auto flag = [](bool set, uint32_t value) { return set ? value : 0u; };
+    return flag(m.fresnel, MINIRT_MATERIAL_FRESNEL) | flag(m.checker, MINIRT_MATERIAL_CHECKER) |
+           flag(m.thin && m.transmit != glm::vec3(0), MINIRT_MATERIAL_THIN) |
+           flag(m.clearShadows, MINIRT_MATERIAL_CLEAR_SHADOWS) | flag(m.physical.has_value(), MINIRT_MATERIAL_PHYSICAL) |
+           flag(m.alphaMode == AlphaMode::mask, MINIRT_MATERIAL_ALPHA_MASK) |
+           flag(m.alphaMode == AlphaMode::blend, MINIRT_MATERIAL_ALPHA_BLEND) |
+           flag(m.doubleSided, MINIRT_MATERIAL_SHINES_BOTH_WAYS);
+}
+
+minirt_material encodeMaterial(const Material& m, float pickDensity, const Geometry& geometry, const ImagePlan& images) {
     minirt_material out = {};
     out.diffuse = vec4(m.diffuse, m.shininess);
     out.specular = vec4(m.specular, m.ior);
     out.reflect = vec4(m.reflect);
-    out.transmit = vec4(m.transmit);
-    out.emission = vec4(m.emission);
+    out.transmit = vec4(m.transmit, m.alphaMode == AlphaMode::opaque ? 1 : m.alpha);
+    out.emission = vec4(m.emission, pickDensity);
     out.checker = vec4(checkerOffset(geometry.origin, m.checkerScale), m.checkerScale);
-    out.options = {(m.fresnel ? MINIRT_MATERIAL_FRESNEL : 0u) | (m.checker ? MINIRT_MATERIAL_CHECKER : 0u) |
-                       (m.thin && m.transmit != glm::vec3(0) ? MINIRT_MATERIAL_THIN : 0u) |
-                       (m.clearShadows ? MINIRT_MATERIAL_CLEAR_SHADOWS : 0u),
-                   images.texture(m.diffuseTexture), m.checkerA, m.checkerB};
+    out.options = {flagsOf(m), images.diffuse(m), m.checkerA, m.checkerB};
+    const Physical physical = m.physical.value_or(Physical{});
+    out.base = vec4(physical.baseColor, physical.metallic);
+    out.finish = {physical.roughness, physical.transmission, m.normalScale, m.alphaCutoff};
+    out.images = {images.surface(m), images.normal(m), images.emission(m), MINIRT_NONE};
     return out;
 }
 
@@ -92,10 +133,15 @@ minirt_light encodeLight(const Light& light, const Geometry& geometry) {
     if (light.type == LightType::directional) {
         out.position = vec4(glm::vec3(-glm::normalize(light.direction)));
         out.options.x = MINIRT_LIGHT_DIRECTIONAL;
-    } else {
-        out.position = vec4(glm::vec3(light.position - geometry.origin));
-        out.options.x = light.inverseSquare ? MINIRT_LIGHT_INVERSE_SQUARE : 0u;
+        return out;
     }
+    out.position = vec4(glm::vec3(light.position - geometry.origin));
+    out.options.x = light.inverseSquare ? MINIRT_LIGHT_INVERSE_SQUARE : 0u;
+    if (light.type != LightType::spot) return out;
+    const SpotCosines cosines = spotCosines(light);
+    out.position.w = cosines.outer, out.intensity.w = cosines.inner;
+    out.axis = vec4(glm::vec3(glm::normalize(light.direction)));
+    out.options.x |= MINIRT_LIGHT_SPOT;
     return out;
 }
 
@@ -171,7 +217,8 @@ minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const
     const Bounds bounds = volumeBounds(geometry, volumes);
     rows.boundsMin = vec4(bounds.min);
     rows.boundsMax = vec4(bounds.max);
-    rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.background, volumes.count, 0};
+    rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.background(), volumes.count, 0};
+    rows.environment.w = static_cast<uint32_t>(scene.render.filter);
     return rows;
 }
 
@@ -190,6 +237,8 @@ minirt_scene_desc encodeScene(const BakedScene& baked) {
     copy(desc.camera.target, scene.camera.target);
     copy(desc.camera.up, scene.camera.up);
     desc.camera.vfov = scene.camera.vfov;
+    desc.camera.aperture = scene.camera.aperture;
+    desc.camera.focus_distance = scene.camera.focusDistance;
     desc.width = scene.render.width;
     desc.height = scene.render.height;
     desc.samples = scene.render.spp;
@@ -310,10 +359,20 @@ void addKernels(BlobWriter& writer, const std::vector<Kernel>& kernels) {
 void addImages(BlobWriter& writer, const Scene& scene, const ImagePlan& plan) {
     std::vector<minirt_image> images;
     std::vector<uint16_t> texels;
-    for (size_t i = 0; i < plan.chosen.size(); ++i)
-        images.push_back(encodeImage(scene.images[plan.chosen[i]], plan.repeats(static_cast<uint32_t>(i)), texels));
+    std::map<uint32_t, minirt_image> encoded;  // by the scene's image
+    for (const ImagePlan::Place& place : plan.places()) {
+        if (encoded.count(place.image) == 0) encoded[place.image] = encodeImage(scene.images[place.image], texels);
+        images.push_back(encoded[place.image]);
+        images.back().extent.w = place.flags;
+    }
     writer.add("IMAGES", images);
     writer.add("TEXELS", texels);
+}
+
+/// True where a kernel asks for texture coordinates.
+bool readsUvs(const EffectSet& effects) {
+    return effects.has(Effect::textures) || effects.has(Effect::alpha) || effects.has(Effect::surfaceMaps) ||
+           effects.has(Effect::normalMaps) || effects.has(Effect::emissionMaps);
 }
 
 void addCorners(BlobWriter& writer, const Geometry& geometry, const EffectSet& effects) {
@@ -326,19 +385,19 @@ void addCorners(BlobWriter& writer, const Geometry& geometry, const EffectSet& e
         uvs.push_back({uv[2].x, uv[2].y, 0, 0});
     }
     if (effects.has(Effect::smoothNormals)) writer.add("NORMALS", normals);
-    if (effects.has(Effect::textures)) writer.add("UVS", uvs);
+    if (readsUvs(effects)) writer.add("UVS", uvs);
 }
 
 }  // namespace
 
 std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
     const auto& [scene, geometry, bvh, nodes, volumes, effects, kernels] = baked;
-    const ImagePlan images = planImages(scene, effects);
+    const ImagePlan images(scene, effects);
     std::vector<minirt_material> materials;
-    for (const Material& material : scene.materials) materials.push_back(encodeMaterial(material, geometry, images));
+    for (const Material& material : scene.materials) materials.push_back(encodeMaterial(material, 0, geometry, images));
     std::vector<minirt_light> lights;
     for (const Light& light : scene.lights) lights.push_back(encodeLight(light, geometry));
-    const bool withCorners = !geometry.corners.empty() && (effects.has(Effect::smoothNormals) || effects.has(Effect::textures));
+    const bool withCorners = !geometry.corners.empty() && (effects.has(Effect::smoothNormals) || readsUvs(effects));
     const minirt_scene_desc desc = encodeScene(baked);
     const minirt_scene_rows rows = encodeRows(scene, geometry, nodes, volumes, images);
 

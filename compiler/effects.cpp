@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "shining.hpp"
+
 namespace minirtc {
 namespace {
 
@@ -13,11 +15,20 @@ constexpr std::array<EffectInfo, kEffectCount> kEffects = {{
     {"checker", "EFFECT_CHECKER", "no object has a checker material"},
     {"point_lights", "EFFECT_POINT_LIGHTS", "there is no point light"},
     {"directional_lights", "EFFECT_DIRECTIONAL_LIGHTS", "there is no directional light"},
+    {"spot_lights", "EFFECT_SPOT_LIGHTS", "there is no spot light"},
+    {"area_lights", "EFFECT_AREA_LIGHTS", "no surface shines for path tracers to pick"},
+    {"environment_light", "EFFECT_ENVIRONMENT_LIGHT", "no background shines for path tracers to pick"},
     {"highlights", "EFFECT_HIGHLIGHTS", "no lit material in use has a highlight"},
     {"reflection", "EFFECT_REFLECTION", "no material in use reflects"},
     {"refraction", "EFFECT_REFRACTION", "no material in use transmits"},
     {"fresnel", "EFFECT_FRESNEL", "no material in use splits by Fresnel"},
+    {"microfacets", "EFFECT_MICROFACETS", "path tracers meet no metal and no coat"},
+    {"rough_transmission", "EFFECT_ROUGH_TRANSMISSION", "path tracers meet no rough glass"},
+    {"normal_maps", "EFFECT_NORMAL_MAPS", "no material in use has a normal map"},
+    {"surface_maps", "EFFECT_SURFACE_MAPS", "no material in use has a texture of roughness and metallic"},
     {"emission", "EFFECT_EMISSION", "no material in use shines"},
+    {"emission_maps", "EFFECT_EMISSION_MAPS", "no material in use has a texture of emission"},
+    {"alpha", "EFFECT_ALPHA", "no material in use has holes"},
     {"background_image", "EFFECT_BACKGROUND_IMAGE", "the background is a constant"},
     {"thin", "EFFECT_THIN", "no material in use is thin-walled"},
     {"nesting", "EFFECT_NESTING", "no ray needs to know which volumes it is in"},
@@ -28,6 +39,7 @@ constexpr std::array<EffectInfo, kEffectCount> kEffects = {{
     {"dispersion", "EFFECT_DISPERSION", "no medium disperses light"},
     {"spectral", "EFFECT_SPECTRAL", "light disperses as red, green and blue, or not at all"},
     {"transmissive_shadows", "EFFECT_TRANSMISSIVE_SHADOWS", "no light meets what transmits, or shadows are opaque"},
+    {"lens", "EFFECT_LENS", "the camera is a pinhole, or nothing traces paths"},
     {"float_nodes", "EFFECT_FLOAT_NODES", "16-bit boxes fit this scene"},
 }};
 
@@ -42,6 +54,25 @@ void callFor(EffectSet& effects, Effect effect, bool wanted, const std::string& 
     choice.reason = reason;
 }
 
+/// True where alpha lets light through somewhere.
+bool hasHoles(const Material& material, const Scene& scene) {
+    if (material.alphaMode == AlphaMode::opaque) return false;
+    float least = 1;
+    if (material.diffuseTexture != kNone)
+        for (const glm::vec4& texel : scene.images[material.diffuseTexture].texels) least = std::min(least, texel.a);
+    return material.alpha * least < (material.alphaMode == AlphaMode::mask ? material.alphaCutoff : 1.0f);
+}
+
+/// What only a pbr material has. One of index 1 without metal and transmission is matte.
+void addPhysical(EffectSet& effects, const Material& material, bool paths, const std::string& reason) {
+    const Physical& physical = *material.physical;
+    const bool opaquePart = physical.transmission < 1 && (physical.metallic > 0 || material.ior != 1);
+    callFor(effects, Effect::microfacets, paths && opaquePart, reason);
+    callFor(effects, Effect::roughTransmission, paths && physical.transmission > 0 && physical.roughness > 0, reason);
+    callFor(effects, Effect::normalMaps, material.normalTexture != kNone && material.normalScale != 0, reason);
+    callFor(effects, Effect::surfaceMaps, material.surfaceTexture != kNone, reason);
+}
+
 void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const std::string& object) {
     const Material& material = scene.materials[index];
     const std::string reason = "material '" + material.name + "' of " + object;
@@ -51,8 +82,9 @@ void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const s
         addMaterial(effects, scene, material.checkerB, object);
         return;
     }
-    const bool lit = !scene.lights.empty();
-    callFor(effects, Effect::textures, lit && material.diffuseTexture != kNone && nonZero(material.diffuse), reason);
+    const bool lit = !scene.lights.empty(), paths = scene.render.tracesPaths();
+    const bool colored = nonZero(material.diffuse) || (paths && material.physical && nonZero(material.physical->baseColor));
+    callFor(effects, Effect::textures, (lit || paths) && material.diffuseTexture != kNone && colored, reason);
     callFor(effects, Effect::highlights, lit && nonZero(material.specular), reason);
     callFor(effects, Effect::reflection, nonZero(material.reflect), reason);
     callFor(effects, Effect::refraction, nonZero(material.transmit), reason);
@@ -67,7 +99,26 @@ void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const s
     callFor(effects, Effect::dispersion, disperses, reason);
     callFor(effects, Effect::spectral, disperses && scene.render.dispersionMode == DispersionMode::spectral,
             "\"dispersionMode\": \"spectral\"");
-    callFor(effects, Effect::transmissiveShadows, lit && transmits && material.clearShadows, reason);
+    callFor(effects, Effect::transmissiveShadows, (lit || paths) && transmits && material.clearShadows, reason);
+    callFor(effects, Effect::emissionMaps, nonZero(material.emission) && material.emissionTexture != kNone, reason);
+    callFor(effects, Effect::alpha, hasHoles(material, scene), reason);
+    if (material.physical) addPhysical(effects, material, paths, reason);
+}
+
+void addLights(EffectSet& effects, const Scene& scene) {
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const LightType type = scene.lights[i].type;
+        callFor(effects,
+                type == LightType::point  ? Effect::pointLights
+                : type == LightType::spot ? Effect::spotLights
+                                          : Effect::directionalLights,
+                true, "light " + std::to_string(i));
+    }
+    const bool image = scene.background.image != kNone;
+    const std::string name = image ? "background '" + scene.images[scene.background.image].name + "'" : "background";
+    callFor(effects, Effect::backgroundImage, image, name);
+    callFor(effects, Effect::environmentLight, scene.render.tracesPaths() && backgroundShines(scene), name);
+    callFor(effects, Effect::lens, scene.render.tracesPaths() && scene.camera.aperture > 0, "the camera's aperture");
 }
 
 /// A list of the volumes that a ray is in is needed where volumes share space, or where what is in a volume must know of its medium.
@@ -98,16 +149,14 @@ EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Vol
     for (const Primitive& primitive : geometry.primitives) {
         const std::string& object = geometry.bodies[primitive.body].name;
         callFor(effects, Effect::spheres, primitive.isSphere, object);
-        if (seen.insert(primitive.material).second) addMaterial(effects, scene, primitive.material, object);
+        if (!seen.insert(primitive.material).second) continue;
+        addMaterial(effects, scene, primitive.material, object);
+        const Material& material = scene.materials[primitive.material];
+        callFor(effects, Effect::areaLights, scene.render.tracesPaths() && nonZero(glm::vec3(meanEmission(material, scene))),
+                "material '" + material.name + "' of " + object);
     }
     callFor(effects, Effect::smoothNormals, geometry.anySmooth, "vertex normals that differ from their face's");
-    for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const bool point = scene.lights[i].type == LightType::point;
-        callFor(effects, point ? Effect::pointLights : Effect::directionalLights, true, "light " + std::to_string(i));
-    }
-    if (scene.background.image != kNone) {
-        callFor(effects, Effect::backgroundImage, true, "background '" + scene.images[scene.background.image].name + "'");
-    }
+    addLights(effects, scene);
     addVolumes(effects, scene, volumes);
     callFor(effects, Effect::floatNodes, floatNodes, "16-bit boxes would lose too much on this scene");
     return effects;

@@ -191,10 +191,9 @@ private:
         return entry->second;
     }
 
-    bool isTextured(uint32_t index) const {
-        if (index == kNone) return false;
+    bool hasTexture(uint32_t index) const {
         const Material& m = scene_.materials[index];
-        return m.checker ? isTextured(m.checkerA) || isTextured(m.checkerB) : m.diffuseTexture != kNone;
+        return m.checker ? isTextured(scene_.materials[m.checkerA]) || isTextured(scene_.materials[m.checkerB]) : isTextured(m);
     }
 
     void addSphere(const Object& object) {
@@ -274,7 +273,7 @@ private:
         triangle.p = p;
         triangle.material = material;
         triangle.body = bodyOf(object, material);
-        if (bent || isTextured(material)) {
+        if (bent || hasTexture(material)) {
             triangle.corners = static_cast<uint32_t>(out_.corners.size());
             out_.corners.push_back({{glm::vec3(normals[0]), glm::vec3(normals[1]), glm::vec3(normals[2])}, uvs});
         }

@@ -72,6 +72,7 @@ Image makeImage(int width, int height) {
 
 Image fromFloats(const float* rgba, int width, int height) {
     Image image = makeImage(width, height);
+    image.isFloat = true;
     std::memcpy(image.texels.data(), rgba, image.texels.size() * sizeof(glm::vec4));
     return image;
 }
@@ -147,6 +148,7 @@ Image decodeExr(const std::filesystem::path& path, const Bytes& bytes) {
     }
 
     Image image = makeImage(exr.image.width, exr.image.height);
+    image.isFloat = true;
     if (exr.image.images)
         copyExrBlock(exr.image.images, channels, exr.image.width, 0, 0, exr.image.width, exr.image.height, image);
     for (int i = 0; i < exr.image.num_tiles; ++i) {
@@ -198,14 +200,17 @@ Image loadImage(const std::filesystem::path& path, ColorSpace space) {
     Image image = decode(path, bytes, space);
     rejectImpossibleRadiance(path, image);
     image.name = path.string();
+    image.space = space;
     return image;
 }
 
-uint32_t addImage(Scene& scene, const std::filesystem::path& path) {
+uint32_t addImage(Scene& scene, const std::filesystem::path& path, ColorSpace space) {
     const std::filesystem::path normal = path.lexically_normal();
-    for (uint32_t i = 0; i < scene.images.size(); ++i)
-        if (scene.images[i].name == normal.string()) return i;
-    scene.images.push_back(loadImage(normal, ColorSpace::srgb));
+    for (uint32_t i = 0; i < scene.images.size(); ++i) {
+        const Image& image = scene.images[i];
+        if (image.name == normal.string() && (image.isFloat || image.space == space)) return i;
+    }
+    scene.images.push_back(loadImage(normal, space));
     return static_cast<uint32_t>(scene.images.size() - 1);
 }
 

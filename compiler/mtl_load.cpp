@@ -61,7 +61,7 @@ void addTexture(const MtlMaterial& mtl, Material& material, Scene& scene, Diagno
         return;
     }
     try {
-        material.diffuseTexture = addImage(scene, *path);
+        material.diffuseTexture = addImage(scene, *path, ColorSpace::srgb);
     } catch (const Error& error) {
         diagnostics.warn(mtl.mapLocation, std::string(error.what()), "the colour Kd is used alone");
     }
@@ -71,6 +71,13 @@ void addTexture(const MtlMaterial& mtl, Material& material, Scene& scene, Diagno
 double opacity(const tinyobj::material_t& m) {
     const bool glass = m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
     return m.dissolve < 1 ? std::max(m.dissolve, 0.0) : glass ? 0 : 1;
+}
+
+/// What shows through is smooth: roughness is that of opaque surfaces.
+Physical toPhysical(const tinyobj::material_t& m, const glm::vec3& kd, double metallic, float opacity) {
+    constexpr double kUsual = 0.5;
+    const double roughness = opacity < 1 ? 0 : m.roughness < 0 ? kUsual : std::min(m.roughness, 1.0);
+    return {kd, static_cast<float>(metallic), static_cast<float>(roughness), 1 - opacity};
 }
 
 }  // namespace
@@ -104,8 +111,8 @@ Material toMaterial(const MtlMaterial& mtl, Scene& scene, Diagnostics& diagnosti
     const bool pbr = m.roughness >= 0 || m.metallic >= 0, textured = !m.diffuse_texname.empty();
     const double metallic = std::clamp(m.metallic, 0.0, 1.0);
     if (metallic > 0 && m.roughness != 0)
-        throw Error(mtl.location, "the material " + inQuotes(mtl.name) + " is a metal with roughness over 0: not in this version",
-                    "set Pr to 0 or name another material in the scene file");
+        leaveWhittedOut(scene, mtl.location, "the metal " + inQuotes(mtl.name) + " with roughness over 0",
+                        "set Pr to 0 or name another material in the scene file");
     const float a = static_cast<float>(opacity(m));
     const glm::vec3 kd = m.diffuse[0] < 0 ? glm::vec3(textured ? 1.0f : 0.5f) : glm::vec3(toVector(m.diffuse));
     const glm::vec3 ks(toVector(m.specular)), filter(toVector(m.transmittance));
@@ -123,6 +130,7 @@ Material toMaterial(const MtlMaterial& mtl, Scene& scene, Diagnostics& diagnosti
     material.ior = m.ior >= FLT_MIN ? static_cast<float>(m.ior) : 1.0f;
     material.thin = material.ior == 1.0f;  // bends nothing: a way to write how much of a sheet is there
     material.emission = glm::vec3(toVector(m.emission));
+    if (pbr) material.physical = toPhysical(m, kd, metallic, a);
     if (textured) addTexture(mtl, material, scene, diagnostics);
     return material;
 }

@@ -4,7 +4,10 @@
 
 #include "json_fields.hpp"
 #include "scene.hpp"
+#include "scene_lights.hpp"
 #include "scene_materials.hpp"
+#include "scene_shapes.hpp"
+#include "shining.hpp"
 #include "text_file.hpp"
 
 namespace minirtc {
@@ -21,7 +24,6 @@ Camera readCamera(SceneFile& file, const JsonValue& value) {
     camera.vfov = object.number("vfov", camera.vfov, {0, 180, false, false});
     camera.aperture = object.number("aperture", 0, kNotNegative);
     camera.focusDistance = object.number("focusDistance", 1, kPositive);
-    if (camera.aperture > 0) object.fail("aperture", "an aperture over 0 is not in this version", "set it to 0");
 
     const glm::dvec3 view = camera.target - camera.position;
     constexpr double kParallel = 1e-6;  // sine of the angle below which the picture's upright is lost in rounding
@@ -42,49 +44,48 @@ Background readBackground(SceneFile& file, const JsonValue& value, Scene& scene)
     background.color = object.color("color", glm::vec3(0), kNotNegative) * background.strength;
     if (!std::isfinite(background.color.r + background.color.g + background.color.b))
         object.fail("strength", "'color' times 'strength' is too large", "single precision ends at 3.4e38");
-    if (object.has("image")) background.image = addImage(scene, object.file("image"));
+    if (object.has("image")) background.image = addImage(scene, object.file("image"), ColorSpace::srgb);
     return background;
 }
 
-Light readLight(SceneFile& file, const JsonValue& value) {
-    requireType(file, value, "a light", JsonType::object);
-    const bool directional = value.find("type") && value.find("type")->string == "directional";
-    const std::string what = directional ? "a directional light" : "a light";
-    const JsonObject kind(file, value, what,
-                          {"type", "position", "intensity", "falloff", "direction", "irradiance", "innerAngle", "outerAngle",
-                           "origin", "u", "v", "radiance"});
-    kind.require("type");
-    kind.word("type", "", {"point", "directional"}, {"spot", "rectangle"});
+const std::vector<std::string> kIntegrators = {"whitted", "path", "wavefront"};
 
-    Light light;
-    if (directional) {
-        const JsonObject object(file, value, what, {"type", "direction", "irradiance"});
-        light.type = LightType::directional;
-        object.require("direction");
-        light.direction = object.vector("direction", {});
-        light.intensity = object.color("irradiance", glm::vec3(1), kNotNegative);
-        if (glm::length(light.direction) == 0)
-            object.fail("direction", "'direction' has no length", "give the way the light travels");
-    } else {
-        const JsonObject object(file, value, "a point light", {"type", "position", "intensity", "falloff"});
-        object.require("position");
-        light.position = object.vector("position", {});
-        light.intensity = object.color("intensity", glm::vec3(1), kNotNegative);
-        light.inverseSquare = object.word("falloff", "inverse-square", {"inverse-square", "none"}) == "inverse-square";
+Integrator integratorNamed(const std::string& name) {
+    return static_cast<Integrator>(std::find(kIntegrators.begin(), kIntegrators.end(), name) - kIntegrators.begin());
+}
+
+/// 'integrators', and 'integrator', which is one of them.
+void readIntegrators(const SceneFile& file, const JsonObject& object, RenderDefaults& render) {
+    if (const JsonValue* list = object.find("integrators")) {
+        requireType(file, *list, "'integrators'", JsonType::array);
+        if (list->items.empty()) object.fail("integrators", "'integrators' is empty", "name one or leave it out");
+        render.integrators.clear();
+        render.integratorsGiven = true;
+        for (const JsonValue& item : list->items) {
+            requireType(file, item, "an integrator", JsonType::string);
+            if (std::find(kIntegrators.begin(), kIntegrators.end(), item.string) == kIntegrators.end())
+                throw Error(file.at(item), "there is no integrator " + inQuotes(item.string), suggest(item.string, kIntegrators));
+            if (!render.uses(integratorNamed(item.string))) render.integrators.push_back(integratorNamed(item.string));
+        }
+        std::sort(render.integrators.begin(), render.integrators.end());
     }
-    return light;
+    render.integrator = render.integrators[0];
+    if (object.has("integrator")) render.integrator = integratorNamed(object.word("integrator", "", kIntegrators));
+    if (!render.uses(render.integrator))
+        object.fail("integrator", "'integrator' is none of 'integrators'", "add it there or name another one");
 }
 
 RenderDefaults readRender(SceneFile& file, const JsonValue& value) {
     const JsonObject object(file, value, "the render section",
-                            {"integrator", "integrators", "maxDepth", "spp", "size", "shadows", "dispersionMode"});
+                            {"integrator", "integrators", "maxDepth", "spp", "size", "shadows", "dispersionMode", "filter"});
     RenderDefaults render;
-    object.word("integrator", "whitted", {"whitted"}, {"path", "wavefront"});
+    readIntegrators(file, object, render);
+    const std::string filter = object.word("filter", "box", {"box", "tent", "gaussian"});
+    render.filter = filter == "box" ? Filter::box : filter == "tent" ? Filter::tent : Filter::gaussian;
     const std::string shadows = object.word("shadows", "", {"transmissive", "opaque"});
     if (!shadows.empty()) render.shadows = shadows == "opaque" ? Shadows::opaque : Shadows::transmissive;
     const bool spectral = object.word("dispersionMode", "rgb", {"rgb", "spectral"}) == "spectral";
     render.dispersionMode = spectral ? DispersionMode::spectral : DispersionMode::rgb;
-    if (object.has("integrators")) object.warnIgnored("integrators", "there is one integrator");
     render.maxDepth = object.integer("maxDepth", render.maxDepth, 0, 255);
     render.spp = object.integer("spp", render.spp, 1, 65536);
     if (const JsonValue* size = object.find("size")) {
@@ -162,12 +163,11 @@ Object readSphere(SceneFile& file, const JsonValue& value, const Scene& scene) {
     Object sphere;
     sphere.shape = ShapeType::sphere;
     sphere.name = "sphere";
-    sphere.sphere.center = shape.vector("center", sphere.sphere.center);
-    sphere.sphere.radius = shape.number("radius", sphere.sphere.radius, kPositive);
+    sphere.sphere = readSphereShape(shape);
     sphere.material = readShapeMaterial(file, object, scene);
     const Material& material = scene.materials[sphere.material];
-    const auto textured = [&](uint32_t m) { return m != kNone && scene.materials[m].diffuseTexture != kNone; };
-    if (material.diffuseTexture != kNone || textured(material.checkerA) || textured(material.checkerB))
+    const auto textured = [&](uint32_t m) { return m != kNone && isTextured(scene.materials[m]); };
+    if (isTextured(material) || textured(material.checkerA) || textured(material.checkerB))
         object.fail("material", "a texture on a sphere is not in this version", "use a plain colour or a mesh");
     return sphere;
 }
@@ -178,17 +178,8 @@ Object readRectangle(SceneFile& file, const JsonValue& value, const Scene& scene
     Object rectangle;
     rectangle.shape = ShapeType::rectangle;
     rectangle.name = "rectangle";
-    rectangle.rectangle.origin = shape.vector("origin", rectangle.rectangle.origin);
-    shape.require("u");
-    shape.require("v");
-    rectangle.rectangle.u = shape.vector("u", {});
-    rectangle.rectangle.v = shape.vector("v", {});
+    rectangle.rectangle = readRectangleShape(shape, "the rectangle");
     rectangle.material = readShapeMaterial(file, object, scene);
-    const double u = glm::length(rectangle.rectangle.u), v = glm::length(rectangle.rectangle.v);
-    const double area = glm::length(glm::cross(rectangle.rectangle.u, rectangle.rectangle.v));
-    constexpr double kThinnest = 1e-7;  // sine of the angle between u and v: thinner is a line in single precision
-    if (!(area > kThinnest * u * v))
-        object.fail("rectangle", "the rectangle has no area", "'u' and 'v' must differ in direction");
     return rectangle;
 }
 
@@ -241,12 +232,17 @@ void readObjects(SceneFile& file, const JsonObject& root, Scene& scene) {
         scene.meshes.push_back(loadObj(paths[i], wantMaterials[i] != 0, scene, file.diagnostics));
 }
 
-void warnWhereBlack(const SceneFile& file, const Scene& scene) {
-    const bool lit = !scene.lights.empty() || scene.background.image != kNone || scene.background.color != glm::vec3(0);
-    const auto glows = [](const Material& m) { return m.emission != glm::vec3(0); };
-    if (!lit && std::none_of(scene.materials.begin(), scene.materials.end(), glows))
-        file.diagnostics.warn({file.path}, "the scene has no light",
-                              "add 'lights' or a 'background', or the picture stays black");
+/// What the scene asks for that its integrator does without.
+void warnOfIdleKeys(const SceneFile& file, const Scene& scene, bool lightsWithSize) {
+    const bool whitted = scene.render.integrator == Integrator::whitted;
+    if (!anythingShines(scene))
+        file.diagnostics.warn({file.path}, "nothing shines", "add 'lights' or a 'background', or the picture stays black");
+    else if (whitted && lightsWithSize && scene.lights.empty())
+        file.diagnostics.warn({file.path}, "lights with size are seen by the integrator 'whitted', but light nothing",
+                              "add a point, spot or directional light or \"integrator\": \"path\"");
+    if (whitted && scene.camera.aperture > 0)
+        file.diagnostics.warn({file.path}, "'aperture' has no effect with the integrator 'whitted'",
+                              "add \"integrator\": \"path\"");
 }
 
 }  // namespace
@@ -260,17 +256,16 @@ Scene loadScene(const std::filesystem::path& path, Diagnostics& diagnostics) {
     scene.path = path.string();
     if (root.has("camera")) scene.camera = readCamera(file, *root.find("camera"));
     if (root.has("background")) scene.background = readBackground(file, *root.find("background"), scene);
-    if (const JsonValue* lights = root.find("lights")) {
-        requireType(file, *lights, "'lights'", JsonType::array);
-        for (const JsonValue& light : lights->items) scene.lights.push_back(readLight(file, light));
-    }
-    if (root.has("materials")) readMaterials(file, *root.find("materials"), scene);
-    scene.nesting = root.word("nesting", "ordered", {"ordered", "parity"}) == "parity" ? Nesting::parity : Nesting::ordered;
     if (root.has("render")) scene.render = readRender(file, *root.find("render"));
+    if (root.has("materials")) readMaterials(file, *root.find("materials"), scene);
+    std::vector<Object> shining;
+    if (root.has("lights")) shining = readLights(file, *root.find("lights"), scene);
+    scene.nesting = root.word("nesting", "ordered", {"ordered", "parity"}) == "parity" ? Nesting::parity : Nesting::ordered;
     readObjects(file, root, scene);
+    scene.objects.insert(scene.objects.end(), shining.begin(), shining.end());
     if (scene.render.shadows != Shadows::byModel)
         for (Material& material : scene.materials) material.clearShadows = scene.render.shadows == Shadows::transmissive;
-    warnWhereBlack(file, scene);
+    warnOfIdleKeys(file, scene, !shining.empty());
     return scene;
 }
 

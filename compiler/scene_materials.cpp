@@ -13,8 +13,11 @@ namespace {
 const std::vector<std::string> kPhongKeys = {"model", "diffuse",   "specular", "reflect", "refract",
                                              "color", "shininess", "ior",      "fresnel", "thin"};
 const std::vector<std::string> kPbrKeys = {
-    "model", "baseColor",    "metallic", "roughness",        "normalTexture",       "emissive",  "alphaMode",  "alphaCutoff",
-    "thin",  "transmission", "ior",      "attenuationColor", "attenuationDistance", "inscatter", "dispersion", "glass"};
+    "model",         "baseColor",   "metallic",         "roughness",           "metallicRoughnessTexture",
+    "normalTexture", "normalScale", "emissive",         "emissiveTexture",     "doubleSided",
+    "alpha",         "alphaMode",   "alphaCutoff",      "textureWrap",         "thin",
+    "transmission",  "ior",         "attenuationColor", "attenuationDistance", "inscatter",
+    "dispersion",    "glass"};
 const std::vector<std::string> kCheckerKeys = {"model", "a", "b", "scale"};
 
 Material readPhong(SceneFile& file, const JsonValue& value, const std::string& what) {
@@ -37,19 +40,32 @@ Material readPhong(SceneFile& file, const JsonValue& value, const std::string& w
     return material;
 }
 
-/// What a pbr material asks for that would make another picture than this version can draw.
-void rejectUnsupported(const JsonObject& object, double metallic, double roughness, double transmission) {
-    const std::string later = " is not in this version";
-    object.word("alphaMode", "opaque", {"opaque"}, {"mask", "blend"});
-    if (object.has("normalTexture")) object.fail("normalTexture", "'normalTexture'" + later, "leave it out");
-    if (metallic > 0 && transmission > 0)
+/// What contradicts itself.
+void rejectImpossible(const JsonObject& object, const Physical& physical, bool thin, AlphaMode alphaMode) {
+    const bool transmits = physical.transmission > 0;
+    if (physical.metallic > 0 && transmits)
         object.fail("transmission", "a material cannot be metallic and transmissive", "set one of them to 0");
-    if (transmission > 0 && roughness > 0)
-        object.fail(object.has("roughness") ? "roughness" : "transmission", "transmission with roughness over 0" + later,
+    if (thin && transmits && physical.roughness > 0)
+        object.fail(object.has("roughness") ? "roughness" : "thin", "a thin sheet cannot be rough",
                     "set 'roughness' to 0 (its default is 0.5)");
-    if (metallic > 0 && roughness > 0)
-        object.fail(object.has("roughness") ? "roughness" : "metallic", "metallic with roughness over 0" + later,
-                    "set 'roughness' to 0 (its default is 0.5)");
+    if (alphaMode != AlphaMode::opaque && transmits && !thin)
+        object.fail("alphaMode", "what transmits fills a volume, whose surface cannot have holes",
+                    "leave 'alphaMode' out, or add \"thin\": true");
+}
+
+/// What a pbr material asks for that only the path tracers can draw.
+void leaveToPathTracers(SceneFile& file, const JsonObject& object, const Material& material, Scene& scene) {
+    const Physical& physical = *material.physical;
+    const char* kind = physical.metallic > 0 ? "metallic" : "transmission";
+    if (physical.metallic == 0 && physical.transmission == 0) return;
+    const auto leave = [&](const std::string& key, const std::string& what, const std::string& hint) {
+        leaveWhittedOut(scene, file.at(*object.find(object.has(key) ? key : kind)), what, hint);
+    };
+    if (physical.roughness > 0)
+        leave("roughness", std::string(kind) + " with roughness over 0", "set 'roughness' to 0 (its default is 0.5)");
+    if (material.diffuseTexture != kNone) leave("baseColor", "a texture on metal or glass", "give 'baseColor' as [r, g, b]");
+    if (material.surfaceTexture != kNone && physical.metallic > 0)
+        leave("metallicRoughnessTexture", "a metal with a 'metallicRoughnessTexture'", "leave it out");
 }
 
 /// What light of `color` is left over `distance` metres, as a coefficient. Black is opaque after any distance that a float can tell.
@@ -100,33 +116,61 @@ void warnOfNoInside(const SceneFile& file, const JsonObject& object, const std::
                                   "give it 'transmission' or leave the key out");
 }
 
+uint32_t readTexture(const JsonObject& object, const std::string& key, ColorSpace space, Scene& scene) {
+    return object.has(key) ? addImage(scene, object.file(key), space) : kNone;
+}
+
+/// All textures but the base colour's, and how they wrap.
+void readTextures(const JsonObject& object, Material& material, Scene& scene) {
+    material.surfaceTexture = readTexture(object, "metallicRoughnessTexture", ColorSpace::linear, scene);
+    material.normalTexture = readTexture(object, "normalTexture", ColorSpace::linear, scene);
+    material.normalScale = static_cast<float>(object.number("normalScale", 1, kAnyNumber));
+    material.emissionTexture = readTexture(object, "emissiveTexture", ColorSpace::srgb, scene);
+    const std::string wrap = object.word("textureWrap", "repeat", {"repeat", "mirror", "clamp"});
+    material.wrap = wrap == "repeat" ? Wrap::repeat : wrap == "mirror" ? Wrap::mirror : Wrap::clamp;
+}
+
+void readAlpha(const JsonObject& object, Material& material) {
+    const std::string mode = object.word("alphaMode", "opaque", {"opaque", "mask", "blend"});
+    material.alphaMode = mode == "opaque" ? AlphaMode::opaque : mode == "mask" ? AlphaMode::mask : AlphaMode::blend;
+    material.alpha = static_cast<float>(object.number("alpha", 1, kZeroToOne));
+    material.alphaCutoff = static_cast<float>(object.number("alphaCutoff", 0.5, kZeroToOne));
+}
+
+/// What the Whitted kernel knows of a physical material.
+void setWeights(const Physical& physical, Material& material) {
+    const auto& [baseColor, metallic, roughness, transmission] = physical;
+    material.diffuse = baseColor * ((1 - metallic) * (1 - transmission)) * glm::one_over_pi<float>();
+    material.reflect = metallic > 0 ? baseColor * metallic : glm::vec3(transmission);
+    material.transmit = baseColor * transmission;
+    material.fresnel = transmission > 0;
+}
+
 Material readPbr(SceneFile& file, const JsonValue& value, const std::string& what, Scene& scene) {
     const JsonObject object(file, value, what, kPbrKeys);
-    const double metallic = object.number("metallic", 0, kZeroToOne);
-    const double roughness = object.number("roughness", 0.5, kZeroToOne);
-    const double transmission = object.number("transmission", 0, kZeroToOne);
-    object.number("alphaCutoff", 0.5, kZeroToOne);
-    rejectUnsupported(object, metallic, roughness, transmission);
-
     Material material;
-    material.medium = readMedium(object);
+    Physical physical;
+    physical.metallic = static_cast<float>(object.number("metallic", 0, kZeroToOne));
+    physical.roughness = static_cast<float>(object.number("roughness", 0.5, kZeroToOne));
+    physical.transmission = static_cast<float>(object.number("transmission", 0, kZeroToOne));
     material.thin = object.boolean("thin", false);
-    glm::vec3 baseColor(1);
+    readAlpha(object, material);
+    rejectImpossible(object, physical, material.thin, material.alphaMode);
+
     const JsonValue* base = object.find("baseColor");
-    if (base && base->type == JsonType::string) {
-        if (metallic > 0 || transmission > 0)
-            object.fail("baseColor", "a texture on metal or glass is not in this version", "give 'baseColor' as [r, g, b]");
-        material.diffuseTexture = addImage(scene, object.file("baseColor"));
-    } else {
-        baseColor = object.color("baseColor", baseColor, kZeroToOne);
-    }
-    material.diffuse = baseColor * static_cast<float>((1 - metallic) * (1 - transmission)) * glm::one_over_pi<float>();
-    material.reflect = metallic > 0 ? baseColor * static_cast<float>(metallic) : glm::vec3(static_cast<float>(transmission));
-    material.transmit = baseColor * static_cast<float>(transmission);
-    material.fresnel = transmission > 0;
+    if (base && base->type == JsonType::string)
+        material.diffuseTexture = addImage(scene, object.file("baseColor"), ColorSpace::srgb);
+    else
+        physical.baseColor = object.color("baseColor", physical.baseColor, kZeroToOne);
+    readTextures(object, material, scene);
+    material.medium = readMedium(object);
     readIndex(object, material);
-    if (transmission == 0) warnOfNoInside(file, object, what);
+    if (physical.transmission == 0) warnOfNoInside(file, object, what);
+    setWeights(physical, material);
     material.emission = object.color("emissive", glm::vec3(0), kNotNegative);
+    material.doubleSided = object.boolean("doubleSided", false);
+    material.physical = physical;
+    leaveToPathTracers(file, object, material, scene);
     return material;
 }
 
@@ -161,7 +205,34 @@ uint32_t findCheckerPart(const SceneFile& file, const JsonValue& name, const Sce
     return index;
 }
 
+/// Gives a checker that shines materials of its own: how densely points are picked as lights is theirs, and differs from that of surfaces that
+/// are all of one of them.
+void ownParts(Scene& scene, uint32_t checker) {
+    const auto shines = [&](uint32_t part) { return scene.materials[part].emission != glm::vec3(0); };
+    if (!shines(scene.materials[checker].checkerA) && !shines(scene.materials[checker].checkerB)) return;
+    for (uint32_t Material::*const part : {&Material::checkerA, &Material::checkerB}) {
+        Material own = scene.materials[scene.materials[checker].*part];
+        own.name += " in " + scene.materials[checker].name;
+        scene.materials[checker].*part = static_cast<uint32_t>(scene.materials.size());
+        scene.materials.push_back(own);
+    }
+}
+
 }  // namespace
+
+bool isTextured(const Material& m) {
+    return m.diffuseTexture != kNone || m.surfaceTexture != kNone || m.normalTexture != kNone || m.emissionTexture != kNone;
+}
+
+void leaveWhittedOut(Scene& scene, const SourceLocation& location, const std::string& what, const std::string& hint) {
+    RenderDefaults& render = scene.render;
+    if (render.integrator == Integrator::whitted)
+        throw Error(location, "the integrator 'whitted' cannot draw " + what, hint + ", or draw with \"integrator\": \"path\"");
+    if (render.uses(Integrator::whitted) && render.integratorsGiven)
+        throw Error(location, "the integrator 'whitted' cannot draw " + what, hint + ", or leave it out of 'integrators'");
+    auto& all = render.integrators;
+    all.erase(std::remove(all.begin(), all.end(), Integrator::whitted), all.end());
+}
 
 bool boundsVolume(const Material& material) {
     return !material.checker && !material.thin && material.transmit != glm::vec3(0);
@@ -193,6 +264,7 @@ void readMaterials(SceneFile& file, const JsonValue& materials, Scene& scene) {
         const JsonValue& checker = materials.members[i].value;
         scene.materials[i].checkerA = findCheckerPart(file, *checker.find("a"), scene);
         scene.materials[i].checkerB = findCheckerPart(file, *checker.find("b"), scene);
+        ownParts(scene, static_cast<uint32_t>(i));
     }
 }
 

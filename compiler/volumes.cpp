@@ -271,7 +271,7 @@ private:
     void findLightsInside() {
         for (size_t i = 0; i < scene_.lights.size(); ++i) {
             const glm::dvec3 position = scene_.lights[i].position - geometry_.origin;
-            if (scene_.lights[i].type != LightType::point) continue;
+            if (scene_.lights[i].type == LightType::directional) continue;
             for (const Volume& volume : volumes_) {
                 if (!result_.content.empty()) return;
                 if (volume.surface().windingAt(position).value_or(1) > 0)
