@@ -104,8 +104,9 @@ typedef struct minirt_uvec4 {
 #define MINIRT_SPEC_FETCH_TEXELS 7
 #define MINIRT_SPEC_COUNT 8
 
-/* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp); `volumes`: entries of a ray's VolumeList. */
+/* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp, shaders/path/path.glsl); `volumes`: entries of a ray's VolumeList. */
 #define MINIRT_WALK_WORDS(volumes) (21u + 2u * (volumes))
+#define MINIRT_PATH_WORDS(volumes) (22u + 2u * (volumes))
 #define MINIRT_TRAVERSAL_WORDS 10u
 #define MINIRT_SEGMENT_WORDS(volumes) (10u + (volumes))
 
@@ -134,9 +135,14 @@ typedef struct minirt_uvec4 {
 #define MINIRT_EMITTER_ENVIRONMENT 0x80000000u
 #define MINIRT_EMITTER_INDEX 0x3fffffffu
 
-/* Of minirt_frame.sampling.y; above them is the minirt_light_sampling. */
+/* Of minirt_frame.sampling.y; above them is how light is found: lights are picked and surfaces followed, weighed by the power or the balance
+   heuristic, or only one of both. */
 #define MINIRT_FRAME_CAMERA_INSIDE 1u
 #define MINIRT_FRAME_LIGHTS_SHIFT 8
+#define MINIRT_LIGHT_SAMPLING_MIS 0u
+#define MINIRT_LIGHT_SAMPLING_MIS_BALANCE 1u
+#define MINIRT_LIGHT_SAMPLING_LIGHTS 2u
+#define MINIRT_LIGHT_SAMPLING_SURFACES 3u
 
 #define MINIRT_FILTER_BOX 0u
 #define MINIRT_FILTER_TENT 1u
@@ -268,14 +274,6 @@ typedef enum minirt_integrator {
     MINIRT_INTEGRATOR_PATH = 2,
     MINIRT_INTEGRATOR_WAVEFRONT = 3
 } minirt_integrator;
-
-/* How the path tracers find light. All give the same picture in the mean; the first has the least noise. */
-typedef enum minirt_light_sampling {
-    MINIRT_LIGHT_SAMPLING_MIS = 0,         /* picks lights and follows surfaces, weighed by the power heuristic */
-    MINIRT_LIGHT_SAMPLING_MIS_BALANCE = 1, /* the same by the balance heuristic */
-    MINIRT_LIGHT_SAMPLING_LIGHTS = 2,      /* picks lights alone: next-event estimation */
-    MINIRT_LIGHT_SAMPLING_SURFACES = 3     /* follows surfaces alone; lights without size stay unseen */
-} minirt_light_sampling;
 
 typedef enum minirt_node_layout { MINIRT_NODES_QUANTISED = 0, MINIRT_NODES_FLOAT = 1 } minirt_node_layout;
 
@@ -473,13 +471,14 @@ typedef struct minirt_region {
 } minirt_region;
 
 typedef struct minirt_render_desc {
-    uint32_t width, height;               /* both 0: the scene's */
-    uint32_t samples;                     /* a pixel; 0: the scene's */
-    uint32_t first_sample;                /* index of the first */
-    uint32_t max_depth;                   /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
-    minirt_integrator integrator;         /* 0: the scene's */
-    minirt_light_sampling light_sampling; /* of the path tracers */
-    uint32_t seed;                        /* of the path tracers: another one gives another picture with noise of its own */
+    uint32_t width, height;       /* both 0: the scene's */
+    uint32_t samples;             /* a pixel; 0: the scene's */
+    uint32_t first_sample;        /* index of the first */
+    uint32_t max_depth;           /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
+    minirt_integrator integrator; /* 0: the scene's */
+    uint32_t
+        light_sampling; /* of the path tracers: MINIRT_LIGHT_SAMPLING_; all give the same picture in the mean, the first with the least noise */
+    uint32_t seed;               /* of the path tracers: another one gives another picture with noise of its own */
     float clamp;                 /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
     const minirt_camera* camera; /* NULL: the scene's */
     minirt_region region;        /* all zero: the whole image */
@@ -1869,15 +1868,19 @@ inline bool aimCamera(const minirt_scene* s, const minirt_camera& camera, minirt
                                        halfHeight);
     }
     frame.position = {position[0], position[1], position[2], scene.throughput_cutoff};
-    frame.forward = {static_cast<float>(forward[0]), static_cast<float>(forward[1]), static_cast<float>(forward[2]), 0};
+    frame.forward = {static_cast<float>(forward[0]), static_cast<float>(forward[1]), static_cast<float>(forward[2]),
+                     static_cast<float>(camera.aperture * 0.5)};
     frame.right = {static_cast<float>(right[0] * halfWidth), static_cast<float>(right[1] * halfWidth),
-                   static_cast<float>(right[2] * halfWidth), 0};
-    frame.up = {upward[0], upward[1], upward[2], 0};
-    frame.sampling.y = scene.volume_capacity && mayBeInVolume(s, position) ? 1 : 0;
+                   static_cast<float>(right[2] * halfWidth), static_cast<float>(camera.focus_distance)};
+    frame.up = {upward[0], upward[1], upward[2], frame.up.w};
+    const bool inside = scene.volume_capacity && mayBeInVolume(s, position);
+    frame.sampling.y = (frame.sampling.y & ~MINIRT_FRAME_CAMERA_INSIDE) | (inside ? MINIRT_FRAME_CAMERA_INSIDE : 0u);
     const minirt_vec4* rows[] = {&frame.position, &frame.forward, &frame.right, &frame.up};
     for (const minirt_vec4* row : rows)
         if (!isfinite(row->x) || !isfinite(row->y) || !isfinite(row->z)) return false;
-    return camera.vfov > 0 && camera.vfov < 180;
+    const bool lens = camera.aperture >= 0 && isfinite(camera.aperture) && isfinite(camera.focus_distance) &&
+                      (camera.aperture == 0 || camera.focus_distance > 0);
+    return lens && camera.vfov > 0 && camera.vfov < 180;
 }
 
 inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc) {
@@ -1899,6 +1902,9 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     if (d.max_depth > 255)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "max_depth must be at most 256 (a limit of 255 bounces)");
     if (d.integrator > MINIRT_INTEGRATOR_WAVEFRONT) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "unknown integrator");
+    if (d.light_sampling > MINIRT_LIGHT_SAMPLING_SURFACES)
+        return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "unknown light_sampling");
+    if (!(d.clamp >= 0)) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "clamp must not be negative");
     if (!d.region.width || !d.region.height || d.region.x > d.width || d.region.width > d.width - d.region.x ||
         d.region.y > d.height || d.region.height > d.height - d.region.y)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "the region lies outside of the image");
@@ -1919,8 +1925,9 @@ inline uint32_t waitingRoom(const minirt_job* job) {
 inline uint32_t stateWords(const minirt_job* job) {
     const minirt_scene* s = job->scene;
     const uint32_t volumes = s->desc.volume_capacity;
-    return MINIRT_WALK_WORDS(volumes) + MINIRT_TRAVERSAL_WORDS + s->desc.bvh_depth +
-           waitingRoom(job) * MINIRT_SEGMENT_WORDS(volumes);
+    const uint32_t ray = MINIRT_TRAVERSAL_WORDS + s->desc.bvh_depth;
+    if (job->desc.integrator != MINIRT_INTEGRATOR_WHITTED) return MINIRT_PATH_WORDS(volumes) + ray;
+    return MINIRT_WALK_WORDS(volumes) + ray + waitingRoom(job) * MINIRT_SEGMENT_WORDS(volumes);
 }
 
 inline minirt_result ensureBuffer(minirt_scene* s, uint32_t binding, VkDeviceSize size, VkBufferUsageFlags usage) {
@@ -1952,8 +1959,9 @@ inline void setFrame(minirt_job* job) {
     const minirt_region& region = d.region;
     job->frame.size = {d.width, d.height, waitingRoom(job), 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
-    job->frame.blocks = {0, (region.width + 7) / 8, 0, stateWords(job)};
-    job->frame.sampling = {d.first_sample, 0, d.max_depth, 0};
+    job->frame.up.w = d.clamp;
+    job->frame.blocks = {0, (region.width + 7) / 8, d.seed, stateWords(job)};
+    job->frame.sampling = {d.first_sample, d.light_sampling << MINIRT_FRAME_LIGHTS_SHIFT, d.max_depth, 0};
 }
 
 inline void recordDispatch(minirt_job* job, VkCommandBuffer commands, uint32_t groups) {

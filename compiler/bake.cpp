@@ -92,7 +92,7 @@ int bake(const BakeOptions& options) {
     const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, options.threads);
     EffectSet effects = analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT);
     if (options.allEffects) includeAll(effects);
-    const std::vector<Kernel> kernels = {compileKernel("whitted", effects)};
+    const std::vector<Kernel> kernels = {compileKernel("whitted", effects), compileKernel("path", effects)};
     const std::vector<uint8_t> blob = assembleBlob({scene, geometry, bvh, nodes, volumes, effects, kernels});
 
     requireValid(options.scene, blob);

@@ -21,39 +21,34 @@ constexpr auto kToolsEnvironment = SPV_ENV_VULKAN_1_1;
 
 /// The order in which the parts of a kernel build on each other.
 const std::vector<std::string> kParts = {
-    "common/language.glsl",
-    "common/neighbours.glsl",
-    "common/numerics.glsl",
-    "common/pixel.glsl",
-    "common/patterns.glsl",
-    "bsdf/optics.glsl",
-    "bsdf/medium.glsl",
-    "bsdf/dispersion.glsl",
-    "media/volumes.glsl",
-    "traverse/box.glsl",
-    "traverse/triangle.glsl",
-    "traverse/sphere.glsl",
-    "layout",
-    "common/frame.glsl",
-    "common/fetch.glsl",
-    "traverse/nodes.glsl",
-    "effects/spheres.glsl",
-    "traverse/traverse.glsl",
-    "common/suspend.glsl",
-    "effects/images.glsl",
-    "effects/background.glsl",
-    "effects/smooth_normals.glsl",
-    "effects/textures.glsl",
-    "common/materials.glsl",
-    "effects/checker.glsl",
-    "effects/nesting.glsl",
-    "effects/media.glsl",
-    "effects/dispersion.glsl",
-    "common/surface.glsl",
-    "effects/lights.glsl",
-    "effects/scatter.glsl",
-    "effects/shadows.glsl",
-    "effects/emission.glsl",
+    "common/language.glsl",      "common/neighbours.glsl",
+    "common/numerics.glsl",      "common/pixel.glsl",
+    "common/patterns.glsl",      "bsdf/optics.glsl",
+    "bsdf/medium.glsl",          "bsdf/dispersion.glsl",
+    "sampling/random.glsl",      "media/volumes.glsl",
+    "traverse/box.glsl",         "traverse/triangle.glsl",
+    "traverse/sphere.glsl",      "layout",
+    "common/frame.glsl",         "common/fetch.glsl",
+    "traverse/nodes.glsl",       "effects/images.glsl",
+    "effects/background.glsl",   "effects/textures.glsl",
+    "common/materials.glsl",     "effects/alpha.glsl",
+    "effects/spheres.glsl",      "traverse/traverse.glsl",
+    "common/suspend.glsl",       "effects/smooth_normals.glsl",
+    "effects/surface_maps.glsl", "effects/checker.glsl",
+    "effects/nesting.glsl",      "effects/media.glsl",
+    "effects/dispersion.glsl",   "common/surface.glsl",
+    "effects/lights.glsl",       "effects/scatter.glsl",
+    "effects/shadows.glsl",      "effects/emission.glsl",
+    "common/encounter.glsl",
+};
+
+/// What the path tracers have beyond them.
+const std::vector<std::string> kPathParts = {
+    "sampling/warp.glsl",       "sampling/cells.glsl",        "bsdf/microfacet.glsl",
+    "effects/lens.glsl",        "effects/microfacets.glsl",   "effects/rough_transmission.glsl",
+    "path/bsdf.glsl",           "effects/light_picking.glsl", "effects/environment_light.glsl",
+    "effects/area_lights.glsl", "path/lights.glsl",           "sampling/filter.glsl",
+    "path/path.glsl",           "path/vertex.glsl",
 };
 
 const std::string kHeader = R"(#version 460
@@ -137,6 +132,7 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
     }
     source += "#define VOLUME_CAPACITY " + std::to_string(effects.volumeCapacity) + "\n";
     std::vector<std::string> parts = kParts;
+    if (name != "whitted") parts.insert(parts.end(), kPathParts.begin(), kPathParts.end());
     parts.push_back("kernels/" + name + ".comp");
     for (const std::string& part : parts) source += "#line 1 \"" + part + "\"\n" + shaderLibrary().at(part) + "\n";
     return source;
@@ -149,7 +145,8 @@ Kernel compileKernel(const std::string& name, const EffectSet& effects) {
     Compiled compiled = compileGlsl(name, kernel.glsl);
     kernel.bindings = compiled.bindings;
     kernel.spirv = optimise(name, compiled.spirv);
-    kernel.waits = effects.splits() ? effects.channels() : 0;  // one a level of depth, and a dispersed ray's further channels
+    kernel.waits = name == "whitted" && effects.splits() ? effects.channels()
+                                                         : 0;  // one a level of depth, and a dispersed ray's further channels
     return kernel;
 }
 

@@ -7,6 +7,7 @@ struct Surface {
     vec3 n;         // unit shading normal, on the side of ng
     vec3 lift;      // shadow rays start at p + lift
     uint material;  // checkers resolved
+    vec2 uv;
     vec3 diffuseTexture;
 };
 
@@ -27,6 +28,9 @@ Surface surfaceAt(vec3 origin, vec3 direction, uint slot, float t) {
     uint corners = floatBitsToUint(row2.w);
     surface.n = shadingNormal(corners, row0.xyz, row1.xyz, row2.xyz, b, surface.p, surface.ng, surface.lift);
     surface.material = resolveMaterial(floatBitsToUint(row0.w) & ~MINIRT_PRIMITIVE_SPHERE, surface.p, surface.ng);
-    surface.diffuseTexture = diffuseTexture(fetchMaterial(surface.material).options.y, corners, b);
+    minirt_material material = fetchMaterial(surface.material);
+    surface.uv = surfaceUv(corners, b);
+    surface.diffuseTexture = diffuseTexture(material.options.y, corners, surface.uv);
+    surface.n = mappedNormal(material, corners, surface.uv, row0.xyz, row1.xyz, row2.xyz, surface.n);
     return surface;
 }

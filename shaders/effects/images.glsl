@@ -1,12 +1,13 @@
-// Effects `textures` and `background_image` share the texels: all images of the scene, linear, in one texel buffer.
+// Effects that read images share the texels: all images of the scene, linear, in one texel buffer.
 
-#if defined(EFFECT_TEXTURES) || defined(EFFECT_BACKGROUND_IMAGE)
+#if defined(EFFECT_TEXTURES) || defined(EFFECT_BACKGROUND_IMAGE) || defined(EFFECT_ALPHA) || defined(EFFECT_SURFACE_MAPS) || \
+    defined(EFFECT_NORMAL_MAPS) || defined(EFFECT_EMISSION_MAPS)
 
 layout(binding = MINIRT_BINDING_IMAGES) uniform usamplerBuffer imageRows;
 layout(binding = MINIRT_BINDING_TEXELS) uniform samplerBuffer texels;
 
 /// Bilinear; texel centres at half-integers; v = 0 is the top row. `u` wraps, `v` wraps or clamps as the image says.
-vec3 sampleImage(uint index, vec2 uv) {
+vec4 sampleTexel(uint index, vec2 uv) {
     int row = int(index) * MINIRT_IMAGE_ROWS;
     minirt_image image = minirt_image(texelFetch(imageRows, row), uintBitsToFloat(texelFetch(imageRows, row + 1)));
     ivec2 size = ivec2(image.extent.xy);
@@ -20,9 +21,11 @@ vec3 sampleImage(uint index, vec2 uv) {
     int x1 = wrapTexel(int(corner.x) + 1, size.x, true);
     int row0 = int(image.extent.z) + wrapTexel(int(corner.y), size.y, repeats) * size.x;
     int row1 = int(image.extent.z) + wrapTexel(int(corner.y) + 1, size.y, repeats) * size.x;
-    vec3 top = mix(texelFetch(texels, row0 + x0).rgb, texelFetch(texels, row0 + x1).rgb, f.x);
-    vec3 bottom = mix(texelFetch(texels, row1 + x0).rgb, texelFetch(texels, row1 + x1).rgb, f.x);
-    return mix(top, bottom, f.y) * image.scale.x;
+    vec4 top = mix(texelFetch(texels, row0 + x0), texelFetch(texels, row0 + x1), f.x);
+    vec4 bottom = mix(texelFetch(texels, row1 + x0), texelFetch(texels, row1 + x1), f.x);
+    return mix(top, bottom, f.y) * vec4(image.scale.xxx, 1.0);
 }
+
+vec3 sampleImage(uint index, vec2 uv) { return sampleTexel(index, uv).rgb; }
 
 #endif

@@ -27,6 +27,7 @@ vec3 passingShare(minirt_material material, vec3 d, vec3 n, float eta) {
 
 const bool SHADOWS_PASS = false;
 
+bool isClear(minirt_material material) { return false; }
 bool mayBeClear(uint slot) { return false; }
 vec3 passingShare(minirt_material material, vec3 d, vec3 n, float eta) { return vec3(0.0); }
 

@@ -12,7 +12,9 @@ bool isSphere(vec4 row0) { return (floatBitsToUint(row0.w) & MINIRT_PRIMITIVE_SP
 PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear shear, float tMax) {
     vec4 row0 = primitiveRow(slot, 0u);
     vec4 row1 = primitiveRow(slot, 1u);
-    TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, row1.xyz, primitiveRow(slot, 2u).xyz, tMax);
+    vec4 row2 = primitiveRow(slot, 2u);
+    TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, row1.xyz, row2.xyz, tMax);
+    if (triangle.hit && !isSphere(row0) && passesAlpha(slot, row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
     SphereHit sphere = intersectSphere(origin, direction, row0.xyz, row1.x, tMax);
     return isSphere(row0) ? PrimitiveHit(sphere.hit, sphere.t) : PrimitiveHit(triangle.hit, triangle.t);
 }
@@ -31,8 +33,10 @@ void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, in
 bool isSphere(vec4 row0) { return false; }
 
 PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear shear, float tMax) {
-    TriangleHit triangle = intersectTriangle(origin, shear, primitiveRow(slot, 0u).xyz, primitiveRow(slot, 1u).xyz,
-                                             primitiveRow(slot, 2u).xyz, tMax);
+    vec4 row0 = primitiveRow(slot, 0u);
+    vec4 row2 = primitiveRow(slot, 2u);
+    TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, primitiveRow(slot, 1u).xyz, row2.xyz, tMax);
+    if (triangle.hit && passesAlpha(slot, row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
     return PrimitiveHit(triangle.hit, triangle.t);
 }
 

@@ -96,37 +96,11 @@ Traversal traceCamera(inout TreeWalk walk, uvec2 pixel, VolumeList volumes) {
     return traceSegment(walk, Segment(frame.position.xyz, cameraDirection(pixel, frame.sampling.x), vec3(1.0), 0u, 0u, volumes));
 }
 
-/// The direction is that of no symmetry, so that it meets few edges of what people model.
 Traversal traceToCamera(inout TreeWalk walk) {
-    const vec3 outwards = vec3(0.3713907, 0.7427814, 0.5570860);
-    float distance = 2.0 * length(max(abs(scene.boundsMin.xyz - frame.position.xyz), abs(scene.boundsMax.xyz - frame.position.xyz)));
-    Segment segment = Segment(frame.position.xyz + distance * outwards, -outwards, vec3(0.0), 0u, 0u, noVolumes());
+    Traversal ray = rayToCamera(frame.position.xyz);
     walk.phase = PHASE_CAMERA;
-    walk.segment = segment;
-    return beginTraversal(segment.origin, segment.direction, distance, false);
-}
-
-/// A surface as the ray that hits it sees it.
-struct Encounter {
-    Surface surface;
-    minirt_material material;
-    vec3 ng;  // geometric and shading normal on the side of the ray
-    vec3 n;
-    bool entering;
-    Boundary boundary;
-    float eta;  // index of refraction behind the surface over the one in front
-};
-
-Encounter encounterAt(vec3 origin, vec3 direction, uint slot, float t, VolumeList volumes, uint channel) {
-    Encounter e;
-    e.surface = surfaceAt(origin, direction, slot, t);
-    e.material = fetchMaterial(e.surface.material);
-    e.entering = dot(direction, e.surface.ng) < 0.0;
-    e.ng = e.entering ? e.surface.ng : -e.surface.ng;
-    e.n = e.entering ? e.surface.n : -e.surface.n;
-    e.boundary = boundaryAt(volumes, bodyOf(slot), e.entering);
-    e.eta = iorRatio(e.boundary, e.material, e.entering, channel);
-    return e;
+    walk.segment = Segment(ray.origin, ray.direction, vec3(0.0), 0u, 0u, noVolumes());
+    return ray;
 }
 
 /// All light together that meets a medium which disperses goes on as one of its channels. The others wait, to come here by themselves.
@@ -181,17 +155,9 @@ Traversal passShadow(inout TreeWalk walk, Traversal ray, Encounter e) {
     walk.unshadowed *= share;
     walk.shadowVolumes = e.boundary.transmitted;
     LightSample light = sampleLight(walk.light - 1u, e.surface.p);
-    Traversal onwards = beginTraversal(offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng), ray.direction, light.distance, false);
+    Traversal onwards = beginTraversal(belowSurface(e), ray.direction, light.distance, false);
     if (importance(walk.unshadowed) <= 0.0) onwards.node = NODE_NONE;
     return onwards;
-}
-
-/// The ray to the camera goes on behind any surface.
-Traversal passToCamera(inout TreeWalk walk, Traversal ray, Encounter e) {
-    walk.segment.origin = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng);
-    walk.segment.volumes = e.boundary.transmitted;
-    float left = dot(frame.position.xyz - walk.segment.origin, ray.direction);
-    return beginTraversal(walk.segment.origin, ray.direction, max(left, 0.0), false);
 }
 
 /// Follows one of the rays that leave the surface, puts the other on the list; with none, takes one from the list.
@@ -205,10 +171,8 @@ Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Encounter e) {
     bool deeper = hit && (straight || from.depth < frame.sampling.z);
     bool reflects = deeper && carriesOn(reflectThroughput);
     bool refracts = deeper && carriesOn(refractThroughput);
-    vec3 above = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, e.ng);
-    vec3 below = offsetRayOrigin(e.surface.p, e.surface.pError, e.ng, -e.ng);
-    Segment reflected = Segment(above, branches.reflected, reflectThroughput, from.depth + 1u, from.channel, e.boundary.reflected);
-    Segment refracted = Segment(below, straight ? from.direction : branches.refracted, refractThroughput,
+    Segment reflected = Segment(aboveSurface(e), branches.reflected, reflectThroughput, from.depth + 1u, from.channel, e.boundary.reflected);
+    Segment refracted = Segment(belowSurface(e), straight ? from.direction : branches.refracted, refractThroughput,
                                 straight ? from.depth : from.depth + 1u, from.channel, e.boundary.transmitted);
     bool room = walk.waiting < frame.size.z;
     if (reflects && refracts && room) {
@@ -232,7 +196,7 @@ void arrive(inout TreeWalk walk, bool hit, Encounter e) {
     float distance = hit ? walk.hitT : MINIRT_RAY_END;
     walk.radiance += walk.segment.throughput * inscattered(medium, distance);
     walk.segment.throughput *= transmittance(medium, distance);
-    vec3 shine = hit ? (e.boundary.skipped ? vec3(0.0) : emission(e.material)) : backgroundRadiance(walk.segment.direction);
+    vec3 shine = hit ? (e.boundary.skipped ? vec3(0.0) : emission(e.material, e.entering, e.surface.uv)) : backgroundRadiance(walk.segment.direction);
     walk.radiance += walk.segment.throughput * shine;
     walk.light = e.boundary.skipped ? lightCount() : 0u;
 }
@@ -246,7 +210,7 @@ void main() {
     if (frame.sampling.w != 0u) {
         loadWalk(task.slot, walk, ray);
         if (walk.phase == PHASE_DONE) return;
-    } else if (TRACKS_VOLUMES && frame.sampling.y != 0u) {
+    } else if (TRACKS_VOLUMES && (frame.sampling.y & MINIRT_FRAME_CAMERA_INSIDE) != 0u) {
         ray = traceToCamera(walk);
     } else {
         ray = traceCamera(walk, task.pixel, noVolumes());
@@ -278,7 +242,9 @@ void main() {
             ray = passShadow(walk, ray, e);
             rays.x += isDone(ray) ? 0u : 1u;
         } else if (toCamera && stopped) {
-            ray = passToCamera(walk, ray, e);
+            ray = passToCamera(ray, frame.position.xyz, e);
+            walk.segment.origin = ray.origin;
+            walk.segment.volumes = e.boundary.transmitted;
         } else if (toCamera) {
             ray = traceCamera(walk, task.pixel, walk.segment.volumes);
         } else {

@@ -1,0 +1,33 @@
+// Path tracing as one kernel: an invocation follows a path to its end. Each pass of the loop traces one ray, so there is one trace site. A pixel that
+// spends its budget of steps saves where it is and goes on in the next dispatch.
+
+void main() {
+    PixelTask task = pixelTask();
+    if (!task.valid) return;
+    Path path;
+    Traversal ray;
+    if (frame.sampling.w != 0u) {
+        uint word = 0u;
+        path = takePath(task.slot, word);
+        if (path.phase == PHASE_DONE) return;
+        ray = takeTraversal(task.slot, word, path.phase == PHASE_SHADOW && !SHADOWS_PASS);
+    } else {
+        ray = beginPath(task.pixel, path);
+    }
+    uvec2 rays = uvec2(0u);
+    uint steps = 0u;
+    while (path.phase != PHASE_DONE) {
+        traverse(ray, steps, STEP_BUDGET);
+        if (!isDone(ray) || steps >= STEP_BUDGET) break;
+        ray = follow(path, ray, task.pixel, rays);
+        steps += 1u;
+    }
+    bool finished = path.phase == PHASE_DONE;
+    addToFilm(task.filmIndex, finished ? clamped(path.radiance) : vec3(0.0), finished, rays);
+    uint word = 0u;
+    putPath(task.slot, word, path);
+    if (finished) return;
+    putTraversal(task.slot, word, ray);
+    atomicAdd(counters.pending, 1u);
+    if (frame.size.w != 0u) atomicAdd(counters.unfinished, 1u);
+}
