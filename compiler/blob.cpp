@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "light_table.hpp"
 #include "spectrum.hpp"
 
 namespace minirtc {
@@ -205,8 +206,44 @@ Bounds volumeBounds(const Geometry& geometry, const Volumes& volumes) {
     return all;
 }
 
+bool reads(const std::vector<Kernel>& kernels, uint32_t binding) {
+    return std::any_of(kernels.begin(), kernels.end(), [&](const Kernel& k) { return k.bindings >> binding & 1u; });
+}
+
+uint32_t bitsOf(float value) {
+    uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/// What path tracers pick lights from, where a kernel does; all empty else.
+struct Picks {
+    std::vector<minirt_pick> emitters, environment;
+    std::vector<float> densities;
+    uint32_t columns = 0, rows = 0;
+    float probability = 0;  // of the environment
+};
+
+Picks makePicks(const BakedScene& baked) {
+    const auto& [scene, geometry, bvh, nodes, volumes, effects, kernels] = baked;
+    Picks picks;
+    picks.densities.assign(scene.materials.size(), 0);
+    const bool cells = reads(kernels, MINIRT_BINDING_ENVIRONMENT);
+    if (!cells && !reads(kernels, MINIRT_BINDING_EMITTERS)) return picks;
+    const EnvironmentCells environment = environmentCells(scene);
+    LightTable table = lightTable(scene, geometry, bvh, environment);
+    picks.emitters = std::move(table.emitters);
+    picks.densities = std::move(table.densities);
+    picks.probability = table.environment;
+    if (cells || picks.probability > 0) {
+        picks.environment = environmentTable(environment);
+        picks.columns = environment.columns, picks.rows = environment.rows;
+    }
+    return picks;
+}
+
 minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const EncodedNodes& nodes, const Volumes& volumes,
-                             const ImagePlan& images) {
+                             const ImagePlan& images, const Picks& picks) {
     minirt_scene_rows rows = {};
     rows.gridOrigin = vec4(nodes.gridOrigin);
     rows.gridScale = vec4(nodes.gridScale);
@@ -217,8 +254,9 @@ minirt_scene_rows encodeRows(const Scene& scene, const Geometry& geometry, const
     const Bounds bounds = volumeBounds(geometry, volumes);
     rows.boundsMin = vec4(bounds.min);
     rows.boundsMax = vec4(bounds.max);
-    rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.background(), volumes.count, 0};
-    rows.environment.w = static_cast<uint32_t>(scene.render.filter);
+    rows.counts = {static_cast<uint32_t>(scene.lights.size()), images.background(), volumes.count,
+                   static_cast<uint32_t>(picks.emitters.size())};
+    rows.environment = {picks.columns, picks.rows, bitsOf(picks.probability), static_cast<uint32_t>(scene.render.filter)};
     return rows;
 }
 
@@ -393,13 +431,15 @@ void addCorners(BlobWriter& writer, const Geometry& geometry, const EffectSet& e
 std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
     const auto& [scene, geometry, bvh, nodes, volumes, effects, kernels] = baked;
     const ImagePlan images(scene, effects);
+    const Picks picks = makePicks(baked);
     std::vector<minirt_material> materials;
-    for (const Material& material : scene.materials) materials.push_back(encodeMaterial(material, 0, geometry, images));
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        materials.push_back(encodeMaterial(scene.materials[i], picks.densities[i], geometry, images));
     std::vector<minirt_light> lights;
     for (const Light& light : scene.lights) lights.push_back(encodeLight(light, geometry));
     const bool withCorners = !geometry.corners.empty() && (effects.has(Effect::smoothNormals) || readsUvs(effects));
     const minirt_scene_desc desc = encodeScene(baked);
-    const minirt_scene_rows rows = encodeRows(scene, geometry, nodes, volumes, images);
+    const minirt_scene_rows rows = encodeRows(scene, geometry, nodes, volumes, images, picks);
 
     BlobWriter writer;
     writer.add("SCENE", &desc, sizeof desc);
@@ -409,10 +449,10 @@ std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
     addCorners(writer, geometry, effects);
     writer.add("MATERIAL", materials);
     writer.add("LIGHTS", lights);
-    const bool readsMedia =
-        std::any_of(kernels.begin(), kernels.end(), [](const Kernel& k) { return k.bindings >> MINIRT_BINDING_MEDIA & 1u; });
-    if (readsMedia) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
+    if (reads(kernels, MINIRT_BINDING_MEDIA)) writer.add("MEDIA", encodeMedia(scene, geometry, volumes));
     if (effects.has(Effect::spectral)) addSpectrum(writer);
+    writer.add("EMITTERS", picks.emitters);
+    writer.add("ENVIRON", picks.environment);
     addImages(writer, scene, images);
     addKernels(writer, kernels);
     const std::string text = explain(baked);

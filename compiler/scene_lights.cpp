@@ -1,6 +1,7 @@
 #include "scene_lights.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "scene_shapes.hpp"
 
@@ -90,12 +91,12 @@ SpotCosines spotCosines(const Light& spot) {
 std::vector<Object> readLights(SceneFile& file, const JsonValue& lights, Scene& scene) {
     requireType(file, lights, "'lights'", JsonType::array);
     std::vector<Object> shining;
-    for (size_t i = 0; i < lights.items.size(); ++i) {
-        const JsonValue& value = lights.items[i];
+    std::map<std::string, int> numbers;
+    for (const JsonValue& value : lights.items) {
         requireType(file, value, "a light", JsonType::object);
         const std::string type = readType(file, value);
         if (type == "rectangle" || type == "sphere")
-            shining.push_back(readShining(file, value, "light " + std::to_string(i), scene));
+            shining.push_back(readShining(file, value, type + " light " + std::to_string(++numbers[type]), scene));
         else
             scene.lights.push_back(type == "point"  ? readPoint(file, value)
                                    : type == "spot" ? readSpot(file, value)
