@@ -39,7 +39,8 @@ Mesh block(const std::array<glm::dvec2, 4>& xz, double height) {
 
 // Corners of the room, in millimetres; it is no exact box.
 constexpr glm::dvec3 kFloorLeft{552.8, 0, 0}, kFloorLeftBack{549.6, 0, 559.2}, kFloorRight{0, 0, 0}, kFloorRightBack{0, 0, 559.2};
-constexpr glm::dvec3 kTopLeft{556, 548.8, 0}, kTopLeftBack{556, 548.8, 559.2}, kTopRight{0, 548.8, 0}, kTopRightBack{0, 548.8, 559.2};
+constexpr glm::dvec3 kTopLeft{556, 548.8, 0}, kTopLeftBack{556, 548.8, 559.2}, kTopRight{0, 548.8, 0},
+    kTopRightBack{0, 548.8, 559.2};
 
 }  // namespace
 
