@@ -60,6 +60,16 @@ samples::Mesh readObj(const std::filesystem::path& path) {
     return mesh;
 }
 
+/// All samples, written once for the cases that read them.
+const std::filesystem::path& generated() {
+    static const test::TemporaryDir folder;
+    static const std::filesystem::path path = [] {
+        samples::generate(folder.path());
+        return folder.path();
+    }();
+    return path;
+}
+
 std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -73,10 +83,9 @@ std::map<std::string, std::string> contents(const std::filesystem::path& folder)
 
 TEST_CASE("every sample mesh but the cards is a closed manifold that faces outward as written to its file") {
     const std::set<std::string> cards{"shrub_leaves.obj", "meadow.obj"};
-    const test::TemporaryDir folder;
-    samples::generate(folder.path());
+    const std::filesystem::path& folder = generated();
     int meshes = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".obj" || cards.count(entry.path().filename().string()) > 0) continue;
         CAPTURE(entry.path().filename().string());
         const samples::Mesh mesh = readObj(entry.path());
@@ -88,17 +97,14 @@ TEST_CASE("every sample mesh but the cards is a closed manifold that faces outwa
 }
 
 TEST_CASE("two runs of the generator write the same bytes") {
-    const test::TemporaryDir first;
     const test::TemporaryDir second;
-    samples::generate(first.path());
     samples::generate(second.path() / "made" / "on the way");
-    CHECK(contents(first.path()) == contents(second.path() / "made" / "on the way"));
+    CHECK(contents(generated()) == contents(second.path() / "made" / "on the way"));
 }
 
 TEST_CASE("the generator writes every scene file unchanged") {
-    const test::TemporaryDir folder;
-    samples::generate(folder.path());
-    const auto written = contents(folder.path());
+    const std::filesystem::path& folder = generated();
+    const auto written = contents(folder);
     const auto source = contents(std::filesystem::path(MINIRT_SOURCE_DIR) / "samples" / "scenes");
     REQUIRE(samples::sceneFiles().size() >= 12);
     for (const auto& [name, text] : samples::sceneFiles()) {
@@ -108,12 +114,11 @@ TEST_CASE("the generator writes every scene file unchanged") {
 }
 
 TEST_CASE("every sample scene loads without a warning, its volumes closed and in an order that is no guess") {
-    const test::TemporaryDir folder;
-    samples::generate(folder.path());
+    const std::filesystem::path& folder = generated();
     for (const auto& [name, text] : samples::sceneFiles()) {
         CAPTURE(name);
         minirtc::Diagnostics diagnostics;
-        const minirtc::Scene scene = minirtc::loadScene(folder.path() / name, diagnostics);
+        const minirtc::Scene scene = minirtc::loadScene(folder / name, diagnostics);
         const minirtc::Geometry geometry = minirtc::flatten(scene, diagnostics);
         minirtc::analyseVolumes(scene, geometry, diagnostics);
         CHECK(diagnostics.warnings == std::vector<std::string>{});
@@ -121,11 +126,10 @@ TEST_CASE("every sample scene loads without a warning, its volumes closed and in
 }
 
 TEST_CASE("the compiler finds what displaces what in the sample scenes") {
-    const test::TemporaryDir folder;
-    samples::generate(folder.path());
+    const std::filesystem::path& folder = generated();
     const auto displacements = [&](const std::string& name) {
         minirtc::Diagnostics diagnostics;
-        const minirtc::Scene scene = minirtc::loadScene(folder.path() / name, diagnostics);
+        const minirtc::Scene scene = minirtc::loadScene(folder / name, diagnostics);
         const minirtc::Geometry geometry = minirtc::flatten(scene, diagnostics);
         std::set<std::string> found;
         for (const minirtc::Displacement& pair : minirtc::analyseVolumes(scene, geometry, diagnostics).displacements) {
@@ -295,10 +299,9 @@ TEST_CASE("the blocks of the Cornell box have the measured sizes, and the room h
 }
 
 TEST_CASE("the lamps over the plates have one power") {
-    const test::TemporaryDir folder;
-    samples::generate(folder.path());
+    const std::filesystem::path& folder = generated();
     minirtc::Diagnostics diagnostics;
-    const minirtc::Scene scene = minirtc::loadScene(folder.path() / "mis.json", diagnostics);
+    const minirtc::Scene scene = minirtc::loadScene(folder / "mis.json", diagnostics);
     std::vector<double> powers;
     for (const minirtc::Object& object : scene.objects) {
         const glm::dvec3 emission(scene.materials[object.material].emission);
