@@ -110,6 +110,17 @@ typedef struct minirt_uvec4 {
 #define MINIRT_TRAVERSAL_WORDS 10u
 #define MINIRT_SEGMENT_WORDS(volumes) (10u + (volumes))
 
+/* Queues of the wavefront: each has a header, which an indirect dispatch reads: groups, 1, 1, paths; then come the paths of each. Of the four
+   from the first even or the first odd one on, a round empties all. */
+#define MINIRT_QUEUE_EVEN_RAYS 0u
+#define MINIRT_QUEUE_EVEN_SHADOWS 1u
+#define MINIRT_QUEUE_HITS 2u
+#define MINIRT_QUEUE_MISSES 3u
+#define MINIRT_QUEUE_ODD_RAYS 4u
+#define MINIRT_QUEUE_ODD_SHADOWS 5u
+#define MINIRT_QUEUE_COUNT 6u
+#define MINIRT_QUEUE_HEADER_WORDS 4u
+
 /* Node references. */
 #define MINIRT_LEAF 0x80000000u
 
@@ -987,6 +998,7 @@ inline minirt_result validate(const void* data, size_t size, minirt_blob* out, m
     X(DestroyDescriptorSetLayout) X(CreateDescriptorPool) X(DestroyDescriptorPool) X(AllocateDescriptorSets) \
     X(UpdateDescriptorSets) X(CreateCommandPool) X(DestroyCommandPool) X(AllocateCommandBuffers) X(BeginCommandBuffer) \
     X(EndCommandBuffer) X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdDispatch) \
+    X(CmdDispatchIndirect) X(CmdUpdateBuffer) \
     X(CmdPipelineBarrier) X(CmdCopyBuffer) X(CmdFillBuffer) X(CmdCopyBufferToImage) X(CreateFence) X(DestroyFence) \
     X(WaitForFences) X(ResetFences) X(CreateQueryPool) X(DestroyQueryPool) X(CmdResetQueryPool) X(CmdWriteTimestamp) \
     X(GetQueryPoolResults)
@@ -1015,6 +1027,8 @@ struct Buffer {
 };
 
 enum class Placement { device, readBack, upload };
+
+constexpr uint32_t kMostKernels = 6; /* of an integrator */
 
 }  // namespace minirt_detail
 
@@ -1058,10 +1072,12 @@ struct minirt_scene {
     uint32_t kernelCount = 0;
     minirt_kernel* kernels = nullptr;
     uint8_t* spirv = nullptr;
-    uint32_t activeKernel = UINT32_MAX;  // the one that the pipeline below is of
+    uint32_t activeIntegrator = MINIRT_INTEGRATOR_SCENE;  // the one that the pipelines below are of
+    uint32_t activeBindings = 0;                          // of its kernels together
+    uint32_t activeWaits = 0;                             // minirt_kernel::waits
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
     VkPipelineLayout pipelineLayout = VK_NULL_HANDLE;
-    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkPipeline pipelines[minirt_detail::kMostKernels] = {};  // in the order of integratorKernels; null where the scene needs none
     VkDescriptorPool descriptorPool = VK_NULL_HANDLE;
     VkDescriptorSet descriptorSet = VK_NULL_HANDLE;
     double blocksPerMs = 0;  // measured; 0: not yet
@@ -1432,7 +1448,7 @@ inline minirt_result openContext(minirt_context* c, const minirt_context_desc& d
     if (c->ownsDevice) c->queueFamily = family;
     if (!c->ownsDevice && family != c->queueFamily) timestampBits = 0;
     readDeviceProperties(c, timestampBits);
-    constexpr uint32_t kStorageBuffers = 6;
+    constexpr uint32_t kStorageBuffers = 7;
     if (c->limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the device offers %sfewer than %lld storage buffers to a kernel", "",
                     kStorageBuffers);
@@ -1549,9 +1565,10 @@ inline void memoryBarrier(minirt_context* c, VkCommandBuffer commands) {
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+                            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_HOST_READ_BIT;
     const VkPipelineStageFlags work = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    c->vk.CmdPipelineBarrier(commands, work, work | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+    c->vk.CmdPipelineBarrier(commands, work, work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                             &barrier, 0, nullptr, 0, nullptr);
 }
 
 constexpr VkDeviceSize kStagingBytes = 64u << 20;
@@ -1729,7 +1746,7 @@ inline Specialisation specialisation(const minirt_scene* scene) {
     return s;
 }
 
-inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel) {
+inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel, VkPipeline* out) {
     minirt_context* c = s->context;
     VkShaderModuleCreateInfo module = {};
     module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -1752,23 +1769,25 @@ inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel
     pipeline.stage.pName = "main";
     pipeline.stage.pSpecializationInfo = &info;
     pipeline.layout = s->pipelineLayout;
-    const minirt_result r = check(c, c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, &s->pipeline),
-                                  "vkCreateComputePipelines");
+    const minirt_result r =
+        check(c, c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, out), "vkCreateComputePipelines");
     c->vk.DestroyShaderModule(c->device, shader, nullptr);
     return r;
 }
 
-inline void destroyPipeline(minirt_scene* s) {
+inline void destroyPipelines(minirt_scene* s) {
     minirt_context* c = s->context;
-    if (s->pipeline) c->vk.DestroyPipeline(c->device, s->pipeline, nullptr);
+    for (VkPipeline& pipeline : s->pipelines) {
+        if (pipeline) c->vk.DestroyPipeline(c->device, pipeline, nullptr);
+        pipeline = VK_NULL_HANDLE;
+    }
     if (s->descriptorPool) c->vk.DestroyDescriptorPool(c->device, s->descriptorPool, nullptr);
     if (s->pipelineLayout) c->vk.DestroyPipelineLayout(c->device, s->pipelineLayout, nullptr);
     if (s->setLayout) c->vk.DestroyDescriptorSetLayout(c->device, s->setLayout, nullptr);
-    s->pipeline = VK_NULL_HANDLE;
     s->descriptorPool = VK_NULL_HANDLE;
     s->pipelineLayout = VK_NULL_HANDLE;
     s->setLayout = VK_NULL_HANDLE;
-    s->activeKernel = UINT32_MAX;
+    s->activeIntegrator = MINIRT_INTEGRATOR_SCENE;
 }
 
 /* Kernels may declare buffers that this scene does not fill (a kernel with all effects); they get a few zeros. */
@@ -1788,7 +1807,7 @@ inline void writeDescriptors(minirt_scene* s) {
     VkDescriptorBufferInfo buffers[MINIRT_BINDING_COUNT];
     VkWriteDescriptorSet writes[MINIRT_BINDING_COUNT] = {};
     uint32_t count = 0;
-    const uint32_t bindings = s->kernels[s->activeKernel].bindings;
+    const uint32_t bindings = s->activeBindings;
     for (uint32_t b = 0; b < MINIRT_BINDING_COUNT; ++b) {
         if (!(bindings >> b & 1u)) continue;
         const Buffer& buffer = s->buffers[bufferOf(b)];
@@ -1807,29 +1826,60 @@ inline void writeDescriptors(minirt_scene* s) {
     s->context->vk.UpdateDescriptorSets(s->context->device, count, writes, 0, nullptr);
 }
 
-inline minirt_result activateKernel(minirt_scene* s, uint32_t index) {
-    if (s->activeKernel == index) return MINIRT_OK;
-    destroyPipeline(s);
+/* The kernels of the wavefront, in the order of a round. */
+enum WaveKernel { kWaveGenerate, kWaveClosest, kWaveHit, kWaveMiss, kWaveShadow, kWaveAccumulate };
+
+/* Names of an integrator's kernels; a scene that nothing lights has no shadow kernel, one with a black background none for misses. */
+inline const char* integratorKernel(uint32_t integrator, uint32_t i) {
+    const char* wavefront[kMostKernels] = {"wave_generate", "wave_closest", "wave_hit",
+                                           "wave_miss",     "wave_shadow",  "wave_accumulate"};
+    if (integrator == MINIRT_INTEGRATOR_WAVEFRONT) return wavefront[i];
+    if (i > 0) return "";
+    return integrator == MINIRT_INTEGRATOR_PATH ? "path" : "whitted";
+}
+
+/* NULL: the blob does not hold it. */
+inline const minirt_kernel* findKernel(const minirt_scene* s, const char* name) {
+    for (uint32_t i = 0; i < s->kernelCount; ++i)
+        if (strcmp(s->kernels[i].name, name) == 0) return &s->kernels[i];
+    return nullptr;
+}
+
+inline bool hasIntegrator(const minirt_scene* s, uint32_t integrator) {
+    return findKernel(s, integratorKernel(integrator, 0)) != nullptr;
+}
+
+inline minirt_result createPipelines(minirt_scene* s, const minirt_kernel* const* kernels) {
+    minirt_result r = MINIRT_OK;
+    for (uint32_t i = 0; i < kMostKernels && !r; ++i)
+        if (kernels[i]) r = createPipeline(s, *kernels[i], &s->pipelines[i]);
+    return r;
+}
+
+inline minirt_result activateIntegrator(minirt_scene* s, uint32_t integrator) {
+    if (s->activeIntegrator == integrator) return MINIRT_OK;
+    destroyPipelines(s);
     const double start = nowMs();
-    const uint32_t bindings = s->kernels[index].bindings;
-    minirt_result r = fillAbsentBuffers(s, bindings);
-    if (!r) r = createLayouts(s, bindings);
-    if (!r) r = createPipeline(s, s->kernels[index]);
+    const minirt_kernel* kernels[kMostKernels];
+    s->activeBindings = 0;
+    s->activeWaits = 0;
+    for (uint32_t i = 0; i < kMostKernels; ++i) {
+        kernels[i] = findKernel(s, integratorKernel(integrator, i));
+        if (!kernels[i]) continue;
+        s->activeBindings |= kernels[i]->bindings;
+        s->activeWaits = larger(s->activeWaits, kernels[i]->waits);
+    }
+    minirt_result r = fillAbsentBuffers(s, s->activeBindings);
+    if (!r) r = createLayouts(s, s->activeBindings);
+    if (!r) r = createPipelines(s, kernels);
     if (r) {
-        destroyPipeline(s);
+        destroyPipelines(s);
         return r;
     }
-    s->activeKernel = index;
+    s->activeIntegrator = integrator;
     s->blocksPerMs = 0;
     s->pipelineMs = nowMs() - start;
     return MINIRT_OK;
-}
-
-inline uint32_t findKernel(const minirt_scene* s, uint32_t integrator) {
-    const char* names[] = {"", "whitted", "path", "wavefront"};
-    for (uint32_t i = 0; i < s->kernelCount; ++i)
-        if (strcmp(s->kernels[i].name, names[integrator]) == 0) return i;
-    return UINT32_MAX;
 }
 
 /* >>implementation-job */
@@ -1917,7 +1967,7 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
 
 /* Segments that a pixel's list can hold. */
 inline uint32_t waitingRoom(const minirt_job* job) {
-    const uint32_t waits = job->scene->kernels[job->scene->activeKernel].waits;
+    const uint32_t waits = job->scene->activeWaits;
     return waits ? job->desc.max_depth + waits - 1 : 0;
 }
 
@@ -1951,26 +2001,95 @@ inline minirt_result allocateJobBuffers(minirt_job* job) {
     const VkDeviceSize fits = larger<VkDeviceSize>(budget / blockBytes, 1);
     job->stateBlocks = static_cast<uint32_t>(
         smaller<VkDeviceSize>(smaller<VkDeviceSize>(fits, job->blockCount), c->limits.maxComputeWorkGroupCount[0]));
-    return ensureBuffer(s, MINIRT_BINDING_STATE, job->stateBlocks * blockBytes, 0);
+    if (minirt_result r = ensureBuffer(s, MINIRT_BINDING_STATE, job->stateBlocks * blockBytes, 0)) return r;
+    if (job->desc.integrator != MINIRT_INTEGRATOR_WAVEFRONT) return MINIRT_OK;
+    const VkDeviceSize words = MINIRT_QUEUE_COUNT * (MINIRT_QUEUE_HEADER_WORDS + VkDeviceSize(job->stateBlocks) * kBlockPixels);
+    return ensureBuffer(s, MINIRT_BINDING_QUEUES, words * 4,
+                        VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
 inline void setFrame(minirt_job* job) {
     const minirt_render_desc& d = job->desc;
     const minirt_region& region = d.region;
-    job->frame.size = {d.width, d.height, waitingRoom(job), 0};
+    const bool queues = d.integrator == MINIRT_INTEGRATOR_WAVEFRONT;
+    job->frame.size = {d.width, d.height, queues ? job->stateBlocks * kBlockPixels : waitingRoom(job), 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
     job->frame.up.w = d.clamp;
     job->frame.blocks = {0, (region.width + 7) / 8, d.seed, stateWords(job)};
     job->frame.sampling = {d.first_sample, d.light_sampling << MINIRT_FRAME_LIGHTS_SHIFT, d.max_depth, 0};
 }
 
+inline void recordKernel(minirt_job* job, VkCommandBuffer commands, uint32_t kernel, uint32_t groups) {
+    minirt_scene* s = job->scene;
+    minirt_context* c = s->context;
+    c->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s->pipelines[kernel]);
+    c->vk.CmdPushConstants(commands, s->pipelineLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof job->frame, &job->frame);
+    c->vk.CmdDispatch(commands, groups, 1, 1);
+}
+
+/* A kernel over the paths that wait in a queue. */
+inline void recordQueue(minirt_job* job, VkCommandBuffer commands, uint32_t kernel, uint32_t queue) {
+    minirt_scene* s = job->scene;
+    minirt_context* c = s->context;
+    if (!s->pipelines[kernel]) return;
+    c->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s->pipelines[kernel]);
+    c->vk.CmdPushConstants(commands, s->pipelineLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof job->frame, &job->frame);
+    c->vk.CmdDispatchIndirect(commands, s->buffers[MINIRT_BINDING_QUEUES].buffer, queue * MINIRT_QUEUE_HEADER_WORDS * 4);
+}
+
+inline void recordEmptyQueues(minirt_job* job, VkCommandBuffer commands, uint32_t first, uint32_t count) {
+    minirt_context* c = job->scene->context;
+    uint32_t headers[MINIRT_QUEUE_COUNT * MINIRT_QUEUE_HEADER_WORDS];
+    for (uint32_t i = 0; i < MINIRT_QUEUE_COUNT * MINIRT_QUEUE_HEADER_WORDS; ++i) headers[i] = i % 4 == 1 || i % 4 == 2 ? 1 : 0;
+    constexpr VkDeviceSize kHeaderBytes = MINIRT_QUEUE_HEADER_WORDS * 4;
+    c->vk.CmdUpdateBuffer(commands, job->scene->buffers[MINIRT_BINDING_QUEUES].buffer, first * kHeaderBytes, count * kHeaderBytes,
+                          headers);
+    memoryBarrier(c, commands);
+}
+
+/* All rays that wait, then what they found, then the shadow rays from there. Rounds take turns with the queues of rays. */
+inline void recordRound(minirt_job* job, VkCommandBuffer commands, uint32_t round) {
+    minirt_context* c = job->scene->context;
+    const uint32_t first = round % 2 ? MINIRT_QUEUE_HITS : MINIRT_QUEUE_EVEN_RAYS;
+    job->frame.sampling.w = round % 2;
+    recordQueue(job, commands, kWaveClosest, round % 2 ? MINIRT_QUEUE_ODD_RAYS : MINIRT_QUEUE_EVEN_RAYS);
+    memoryBarrier(c, commands);
+    recordQueue(job, commands, kWaveHit, MINIRT_QUEUE_HITS);
+    recordQueue(job, commands, kWaveMiss, MINIRT_QUEUE_MISSES);
+    memoryBarrier(c, commands);
+    recordQueue(job, commands, kWaveShadow, round % 2 ? MINIRT_QUEUE_ODD_SHADOWS : MINIRT_QUEUE_EVEN_SHADOWS);
+    memoryBarrier(c, commands);
+    recordEmptyQueues(job, commands, first, 4);
+}
+
+/* Rounds of one submission: a path needs one a bounce and one at its end; those that pass surfaces or spend a budget need more, and get them in the
+   next submission. Even, so that it starts with the same queues. */
+inline uint32_t roundsOf(const minirt_job* job) {
+    return smaller(job->desc.max_depth + 4u, 32u) & ~1u;
+}
+
+inline void recordWavefront(minirt_job* job, VkCommandBuffer commands, uint32_t groups) {
+    minirt_context* c = job->scene->context;
+    const minirt_frame frame = job->frame;
+    if (frame.sampling.w == 0) {
+        recordEmptyQueues(job, commands, 0, MINIRT_QUEUE_COUNT);
+        recordKernel(job, commands, kWaveGenerate, groups);
+        memoryBarrier(c, commands);
+    }
+    for (uint32_t round = 0; round < roundsOf(job); ++round) recordRound(job, commands, round);
+    recordKernel(job, commands, kWaveAccumulate, groups);
+    job->frame = frame;
+}
+
+/* One pass over `groups` blocks: begun, or gone on with where frame.sampling.w says so. */
 inline void recordDispatch(minirt_job* job, VkCommandBuffer commands, uint32_t groups) {
     minirt_scene* s = job->scene;
     minirt_context* c = s->context;
-    c->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s->pipeline);
     c->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s->pipelineLayout, 0, 1, &s->descriptorSet, 0, nullptr);
-    c->vk.CmdPushConstants(commands, s->pipelineLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof job->frame, &job->frame);
-    c->vk.CmdDispatch(commands, groups, 1, 1);
+    if (job->desc.integrator == MINIRT_INTEGRATOR_WAVEFRONT)
+        recordWavefront(job, commands, groups);
+    else
+        recordKernel(job, commands, 0, groups);
     memoryBarrier(c, commands);
 }
 
@@ -2048,10 +2167,9 @@ inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     minirt_context* c = s->context;
     job->startMs = nowMs();
     if (minirt_result r = resolveDesc(job, desc)) return r;
-    const uint32_t kernel = findKernel(s, job->desc.integrator);
-    if (kernel == UINT32_MAX)
+    if (!hasIntegrator(s, job->desc.integrator))
         return fail(c, MINIRT_ERROR_NO_KERNEL, "the blob holds no kernel for this integrator; bake the scene with it");
-    if (minirt_result r = activateKernel(s, kernel)) return r;
+    if (minirt_result r = activateIntegrator(s, job->desc.integrator)) return r;
     const minirt_region& region = job->desc.region;
     job->blockCount = ((region.width + 7) / 8) * ((region.height + 7) / 8);
     if (minirt_result r = allocateJobBuffers(job)) return r;
@@ -2149,7 +2267,7 @@ inline void destroyScene(minirt_scene* s) {
     minirt_context* c = s->context;
     if (!c->lost) c->vk.QueueWaitIdle(c->queue);
     hostDelete(c->allocator, s->job);
-    destroyPipeline(s);
+    destroyPipelines(s);
     for (Buffer& buffer : s->buffers) destroyBuffer(c, buffer);
     destroyBuffer(c, s->filmReadBack);
     destroyBuffer(c, s->countsReadBack);

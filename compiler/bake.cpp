@@ -56,6 +56,16 @@ void writeStats(const std::string& path, const Geometry& geometry, const Bvh& bv
     writeFile(path, text.data(), text.size());
 }
 
+/// The kernels of all integrators that the blob is for. Whitted's holds what it needs alone, the others share theirs.
+std::vector<Kernel> compileKernels(const std::vector<Integrator>& integrators, const EffectSet& whitted, const EffectSet& all) {
+    std::vector<Kernel> kernels;
+    for (Integrator integrator : integrators) {
+        const EffectSet& effects = integrator == Integrator::whitted ? whitted : all;
+        for (const std::string& name : kernelsOf(integrator, effects)) kernels.push_back(compileKernel(name, effects));
+    }
+    return kernels;
+}
+
 /// Finds before the work what would keep its result from being written.
 void checkOutputs(const BakeOptions& options) {
     requireWritable(options.output);
@@ -85,14 +95,17 @@ int bake(const BakeOptions& options) {
     const double start = nowMs();
     checkOutputs(options);
     Diagnostics diagnostics;
-    const Scene scene = loadScene(options.scene, diagnostics);
+    Scene scene = loadScene(options.scene, diagnostics);
+    if (options.onlyDefault) scene.render.integrators = {scene.render.integrator};
     const Geometry geometry = flatten(scene, diagnostics);
     const Bvh bvh = buildBvh(geometry, options.threads);
     const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
     const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, options.threads);
-    EffectSet effects = analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT);
-    if (options.allEffects) includeAll(effects);
-    const std::vector<Kernel> kernels = {compileKernel("whitted", effects), compileKernel("path", effects)};
+    const bool floatNodes = nodes.layout == MINIRT_NODES_FLOAT;
+    EffectSet effects = analyseEffects(scene, geometry, volumes, floatNodes, scene.render.tracesPaths());
+    EffectSet whitted = analyseEffects(scene, geometry, volumes, floatNodes, false);
+    if (options.allEffects) includeAll(effects), includeAll(whitted);
+    const std::vector<Kernel> kernels = compileKernels(scene.render.integrators, whitted, effects);
     const std::vector<uint8_t> blob = assembleBlob({scene, geometry, bvh, nodes, volumes, effects, kernels});
 
     requireValid(options.scene, blob);

@@ -11,6 +11,7 @@ struct BakeOptions {
     std::string output;
     bool explain = false;
     bool allEffects = false;
+    bool onlyDefault = false;  // kernels of the scene's own integrator alone
     LayoutChoice layout = LayoutChoice::automatic;
     unsigned threads = 0;     // 0: all cores
     std::string saveGlslDir;  // "": do not

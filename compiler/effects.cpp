@@ -70,19 +70,19 @@ void addPhysical(EffectSet& effects, const Material& material, bool paths, const
     callFor(effects, Effect::microfacets, paths && opaquePart, reason);
     callFor(effects, Effect::roughTransmission, paths && physical.transmission > 0 && physical.roughness > 0, reason);
     callFor(effects, Effect::normalMaps, material.normalTexture != kNone && material.normalScale != 0, reason);
-    callFor(effects, Effect::surfaceMaps, material.surfaceTexture != kNone, reason);
+    callFor(effects, Effect::surfaceMaps, paths && material.surfaceTexture != kNone, reason);
 }
 
-void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const std::string& object) {
+void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, bool paths, const std::string& object) {
     const Material& material = scene.materials[index];
     const std::string reason = "material '" + material.name + "' of " + object;
     if (material.checker) {
         callFor(effects, Effect::checker, true, reason);
-        addMaterial(effects, scene, material.checkerA, object);
-        addMaterial(effects, scene, material.checkerB, object);
+        addMaterial(effects, scene, material.checkerA, paths, object);
+        addMaterial(effects, scene, material.checkerB, paths, object);
         return;
     }
-    const bool lit = !scene.lights.empty(), paths = scene.render.tracesPaths();
+    const bool lit = !scene.lights.empty();
     const bool colored = nonZero(material.diffuse) || (paths && material.physical && nonZero(material.physical->baseColor));
     callFor(effects, Effect::textures, (lit || paths) && material.diffuseTexture != kNone && colored, reason);
     callFor(effects, Effect::highlights, lit && nonZero(material.specular), reason);
@@ -105,7 +105,7 @@ void addMaterial(EffectSet& effects, const Scene& scene, uint32_t index, const s
     if (material.physical) addPhysical(effects, material, paths, reason);
 }
 
-void addLights(EffectSet& effects, const Scene& scene) {
+void addLights(EffectSet& effects, const Scene& scene, bool paths) {
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const LightType type = scene.lights[i].type;
         callFor(effects,
@@ -117,8 +117,8 @@ void addLights(EffectSet& effects, const Scene& scene) {
     const bool image = scene.background.image != kNone;
     const std::string name = image ? "background '" + scene.images[scene.background.image].name + "'" : "background";
     callFor(effects, Effect::backgroundImage, image, name);
-    callFor(effects, Effect::environmentLight, scene.render.tracesPaths() && backgroundShines(scene), name);
-    callFor(effects, Effect::lens, scene.render.tracesPaths() && scene.camera.aperture > 0, "the camera's aperture");
+    callFor(effects, Effect::environmentLight, paths && backgroundShines(scene), name);
+    callFor(effects, Effect::lens, paths && scene.camera.aperture > 0, "the camera's aperture");
 }
 
 /// A list of the volumes that a ray is in is needed where volumes share space, or where what is in a volume must know of its medium.
@@ -142,7 +142,7 @@ const EffectInfo& effectInfo(Effect effect) {
     return kEffects[static_cast<size_t>(effect)];
 }
 
-EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes) {
+EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes, bool paths) {
     EffectSet effects;
     for (size_t i = 0; i < kEffectCount; ++i) effects.choices[i].reason = kEffects[i].absent;
     std::set<uint32_t> seen;
@@ -150,13 +150,13 @@ EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Vol
         const std::string& object = geometry.bodies[primitive.body].name;
         callFor(effects, Effect::spheres, primitive.isSphere, object);
         if (!seen.insert(primitive.material).second) continue;
-        addMaterial(effects, scene, primitive.material, object);
+        addMaterial(effects, scene, primitive.material, paths, object);
         const Material& material = scene.materials[primitive.material];
-        callFor(effects, Effect::areaLights, scene.render.tracesPaths() && nonZero(glm::vec3(meanEmission(material, scene))),
+        callFor(effects, Effect::areaLights, paths && nonZero(glm::vec3(meanEmission(material, scene))),
                 "material '" + material.name + "' of " + object);
     }
     callFor(effects, Effect::smoothNormals, geometry.anySmooth, "vertex normals that differ from their face's");
-    addLights(effects, scene);
+    addLights(effects, scene, paths);
     addVolumes(effects, scene, volumes);
     callFor(effects, Effect::floatNodes, floatNodes, "16-bit boxes would lose too much on this scene");
     return effects;

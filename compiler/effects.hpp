@@ -74,8 +74,9 @@ struct EffectSet {
     uint32_t channels() const { return !has(Effect::dispersion) ? 1 : has(Effect::spectral) ? 4 : 3; }
 };
 
-/// Decides each effect from the scene: the materials that objects use, the lights, the background, the geometry, the volumes.
-EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes);
+/// Decides each effect from the scene: the materials that objects use, the lights, the background, the geometry, the volumes. `paths`: for the path
+/// tracers too; else for Whitted's tracer alone.
+EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes, bool paths);
 
 /// Every effect, whether called for or not.
 void includeAll(EffectSet& effects);

@@ -4,6 +4,8 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <mutex>
 #include <spirv-tools/libspirv.hpp>
@@ -48,7 +50,7 @@ const std::vector<std::string> kPathParts = {
     "effects/lens.glsl",        "effects/microfacets.glsl",   "effects/rough_transmission.glsl",
     "path/bsdf.glsl",           "effects/light_picking.glsl", "effects/environment_light.glsl",
     "effects/area_lights.glsl", "path/lights.glsl",           "sampling/filter.glsl",
-    "path/path.glsl",           "path/vertex.glsl",
+    "path/path.glsl",           "path/vertex.glsl",           "path/queues.glsl",
 };
 
 const std::string kHeader = R"(#version 460
@@ -136,6 +138,19 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
     parts.push_back("kernels/" + name + ".comp");
     for (const std::string& part : parts) source += "#line 1 \"" + part + "\"\n" + shaderLibrary().at(part) + "\n";
     return source;
+}
+
+std::vector<std::string> kernelsOf(Integrator integrator, const EffectSet& effects) {
+    if (integrator == Integrator::whitted) return {"whitted"};
+    if (integrator == Integrator::path) return {"path"};
+    std::vector<std::string> names = {"wave_generate", "wave_closest", "wave_hit", "wave_accumulate"};
+    const auto any = [&](std::initializer_list<Effect> wanted) {
+        return std::any_of(wanted.begin(), wanted.end(), [&](Effect effect) { return effects.has(effect); });
+    };
+    if (any({Effect::environmentLight, Effect::nesting, Effect::inscatter})) names.push_back("wave_miss");
+    if (any({Effect::pointLights, Effect::directionalLights, Effect::spotLights, Effect::areaLights, Effect::environmentLight}))
+        names.push_back("wave_shadow");
+    return names;
 }
 
 Kernel compileKernel(const std::string& name, const EffectSet& effects) {

@@ -19,6 +19,9 @@ struct Kernel {
 /// The GLSL of a kernel: the files of the shader library that it consists of, behind the defines of its effects.
 std::string composeKernel(const std::string& name, const EffectSet& effects);
 
+/// Names of an integrator's kernels: of the wavefront those only whose queues fill under these effects.
+std::vector<std::string> kernelsOf(Integrator integrator, const EffectSet& effects);
+
 /// Compiles (glslang), optimises and validates (SPIRV-Tools). A failure is a defect of the project: throws Error with the log.
 Kernel compileKernel(const std::string& name, const EffectSet& effects);
 

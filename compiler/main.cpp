@@ -28,6 +28,8 @@ void addBake(CLI::App& app, BakeOptions& options) {
     bake->add_option("scene", options.scene, "Scene file (.json)")->required();
     bake->add_option("-o,--output", options.output, "Blob to write (.mrt)")->required();
     bake->add_flag("--explain", options.explain, "Print each effect, in or out of the kernels, and why");
+    bake->add_flag("--only-default", options.onlyDefault,
+                   "Kernels of the scene's own integrator alone (default: of all that can draw it)");
     bake->add_flag("--all-effects", options.allEffects, "Compile every effect into the kernels, called for or not");
     bake->add_option_function<std::string>(
             "--layout", [&](const std::string& name) { options.layout = layouts().at(name); },

@@ -1,6 +1,7 @@
 // What the validator lets through is safe to render; everything else is refused by name. Needs no device.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -103,6 +104,33 @@ std::vector<char> richBlob(minirtc::LayoutChoice layout = minirtc::LayoutChoice:
                 layout);
 }
 
+/// A blob whose kernel says that it picks lights, so that the tables are there: 2 triangles that shine, a spot, 1 environment of 2 x 2 cells.
+std::vector<char> pickingBlob() {
+    using namespace minirtc;
+    const test::TemporaryDir dir;
+    std::string tga(18, '\0');
+    tga[2] = 2, tga[12] = 2, tga[14] = 2, tga[16] = 24, tga[17] = 0x20;
+    dir.write("image.tga", tga + std::string(12, '\x7f'));
+    Diagnostics diagnostics;
+    const Scene scene =
+        loadScene(dir.write("scene.json", R"({"background":{"image":"image.tga"},"render":{"integrator":"path","filter":"tent"},
+        "lights":[{"type":"rectangle","u":[1,0,0],"v":[0,1,0]},{"type":"spot","position":[0,3,0],"direction":[0,-2,0]}],
+        "materials":{"m":{"model":"pbr","emissiveTexture":"image.tga","baseColor":"image.tga","normalTexture":"image.tga",
+                          "metallicRoughnessTexture":"image.tga","textureWrap":"mirror","emissive":[1,1,1]}},
+        "camera":{"aperture":0.1,"focusDistance":2},
+        "objects":[{"rectangle":{"origin":[0,0,-3],"u":[1,0,0],"v":[0,1,0]},"material":"m"}]})"),
+                  diagnostics);
+    const Geometry geometry = flatten(scene, diagnostics);
+    const Bvh bvh = buildBvh(geometry, 1);
+    const EncodedNodes nodes = encodeNodes(bvh, geometry, LayoutChoice::quantised);
+    const Volumes volumes = analyseVolumes(scene, geometry, diagnostics);
+    const EffectSet effects = analyseEffects(scene, geometry, volumes, false, scene.render.tracesPaths());
+    std::vector<Kernel> kernels = {compileKernel("whitted", effects)};
+    kernels[0].bindings |= 1u << MINIRT_BINDING_EMITTERS | 1u << MINIRT_BINDING_ENVIRONMENT;
+    const std::vector<uint8_t> blob = assembleBlob({scene, geometry, bvh, nodes, volumes, effects, kernels});
+    return {blob.begin(), blob.end()};
+}
+
 struct Forgery {
     const char* what;
     minirt_result result;
@@ -131,6 +159,16 @@ minirt_scene_rows& rowsOf(Blob& blob) {
 }
 minirt_kernel& kernelOf(Blob& blob) {
     return *blob.contents<minirt_kernel>("KERNELS");
+}
+
+minirt_uvec4& emitterOf(Blob& blob, uint32_t i) {
+    return blob.contents<minirt_pick>("EMITTERS")[i].entry;
+}
+minirt_uvec4& cellOf(Blob& blob, uint32_t i) {
+    return blob.contents<minirt_pick>("ENVIRON")[i].entry;
+}
+minirt_material& materialOf(Blob& blob, uint32_t i) {
+    return blob.contents<minirt_material>("MATERIAL")[i];
 }
 
 /// Word of the reference of a child in quantised nodes.
@@ -349,4 +387,114 @@ TEST_CASE("kernels that are none are refused by name") {
             {"other bindings", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).bindings |= 1u << MINIRT_BINDING_COUNT; }},
             {"not SPIR-V", corrupt, "not SPIR-V", [](Blob& b) { b.contents<uint32_t>("SPIRV")[0] = 0x07230204u; }},
         });
+}
+
+TEST_CASE("a blob that lights are picked from holds all that it should") {
+    Blob blob(pickingBlob());
+    std::string message;
+    CHECK(blob.validate(&message) == MINIRT_OK);
+    CHECK(message.empty());
+    const minirt_scene_rows& rows = rowsOf(blob);
+    CHECK(rows.counts.x == 1);
+    CHECK(rows.counts.w == 2 + 2 + 1 + 1);
+    CHECK(countOf(blob, "EMITTERS", sizeof(minirt_pick)) == rows.counts.w);
+    CHECK(rows.environment.x == 2);
+    CHECK(rows.environment.y == 2);
+    CHECK(rows.environment.z == emitterOf(blob, 5).w);
+    CHECK(rows.environment.w == MINIRT_FILTER_TENT);
+    CHECK(emitterOf(blob, 4).x == MINIRT_EMITTER_LIGHT);
+    CHECK(emitterOf(blob, 5).x == MINIRT_EMITTER_ENVIRONMENT);
+    CHECK(sceneOf(blob).camera.aperture == 0.1);
+    CHECK(sceneOf(blob).camera.focus_distance == 2);
+    CHECK(sceneOf(blob).integrator == MINIRT_INTEGRATOR_PATH);
+
+    // The panorama and two spaces of a mirrored texture: base colour and emission are one image, roughness and normals another.
+    CHECK(countOf(blob, "IMAGES", sizeof(minirt_image)) == 3);
+    CHECK(countOf(blob, "TEXELS", 8) == 8);  // the panorama shares the texels of the base colour
+    const minirt_image* images = blob.contents<minirt_image>("IMAGES");
+    const minirt_material& m = materialOf(blob, 0);
+    CHECK(rows.counts.y == 0);
+    CHECK(m.options.y == 1);
+    CHECK(m.images.x == 2);
+    CHECK(m.images.y == 2);
+    CHECK(m.images.z == 1);
+    CHECK(images[0].extent.w == 0);
+    CHECK(images[1].extent.w == (MINIRT_IMAGE_MIRROR_U | MINIRT_IMAGE_MIRROR_V));
+    CHECK(images[1].extent.z == images[0].extent.z);
+    CHECK(images[2].extent.z != images[0].extent.z);
+    CHECK(m.options.x == (MINIRT_MATERIAL_PHYSICAL | MINIRT_MATERIAL_CLEAR_SHADOWS));
+    CHECK(m.emission.w > 0);
+    CHECK(m.finish.x == 0.5f);
+    CHECK(m.transmit.w == 1);
+
+    const minirt_light& spot = blob.contents<minirt_light>("LIGHTS")[0];
+    CHECK(spot.options.x == (MINIRT_LIGHT_SPOT | MINIRT_LIGHT_INVERSE_SQUARE));
+    CHECK(spot.axis.y == -1);
+    CHECK(spot.position.w == doctest::Approx(std::sqrt(0.5)));
+    CHECK(spot.intensity.w == 1);
+}
+
+TEST_CASE("tables of lights that lead nowhere are refused by name") {
+    const minirt_result corrupt = MINIRT_ERROR_CORRUPT;
+    checkForgeries(
+        pickingBlob(),
+        {
+            {"number of emitters", corrupt, "7 emitters", [](Blob& b) { rowsOf(b).counts.w = 7; }},
+            {"columns", corrupt, "3 columns", [](Blob& b) { rowsOf(b).environment.x = 3; }},
+            {"rows that overflow", corrupt, "columns",
+             [](Blob& b) { rowsOf(b).environment.x = rowsOf(b).environment.y = 0x80000002u; }},
+            {"probability", corrupt, "probability", [](Blob& b) { rowsOf(b).environment.z = 0x7fc00000u; }},
+            {"filter", corrupt, "filter", [](Blob& b) { rowsOf(b).environment.w = 3; }},
+            {"emitters that are gone", corrupt, "emitters", [](Blob& b) { b.section("EMITTERS").tag[0] = 'X'; }},
+            {"emitters that nothing counts", corrupt, "picks emitters that are not there",
+             [](Blob& b) { b.section("EMITTERS").tag[0] = 'X', rowsOf(b).counts.w = 0; }},
+            {"cells that are gone", corrupt, "columns", [](Blob& b) { b.section("ENVIRON").tag[0] = 'X'; }},
+            {"an environment that is gone", corrupt, "emitter 5",
+             [](Blob& b) { b.section("ENVIRON").tag[0] = 'X', rowsOf(b).environment.x = rowsOf(b).environment.y = 0; }},
+            {"cells that nothing counts", corrupt, "environment that is not there",
+             [](Blob& b) {
+                 b.section("ENVIRON").tag[0] = 'X', rowsOf(b).environment.x = rowsOf(b).environment.y = 0;
+                 emitterOf(b, 5).x = 0;
+             }},
+            {"a primitive outside", corrupt, "emitter 1", [](Blob& b) { emitterOf(b, 1).x = 4; }},
+            {"a light outside", corrupt, "emitter 4", [](Blob& b) { emitterOf(b, 4).x = MINIRT_EMITTER_LIGHT | 1; }},
+            {"a second environment", corrupt, "emitter 5", [](Blob& b) { emitterOf(b, 5).x = MINIRT_EMITTER_ENVIRONMENT | 1; }},
+            {"of no kind", corrupt, "emitter 0", [](Blob& b) { emitterOf(b, 0).x = 0xc0000000u; }},
+            {"alias outside", corrupt, "emitter 2", [](Blob& b) { emitterOf(b, 2).y = 6; }},
+            {"probability over 1", corrupt, "emitter 3", [](Blob& b) { emitterOf(b, 3).w = 0x3f800001u; }},
+            {"negative probability", corrupt, "emitter 3", [](Blob& b) { emitterOf(b, 3).w = 0xbf000000u; }},
+            {"cell's alias outside", corrupt, "cell 1", [](Blob& b) { cellOf(b, 1).y = 4; }},
+            {"cell's probability", corrupt, "cell 2", [](Blob& b) { cellOf(b, 2).w = 0x7f800000u; }},
+            {"a cell that stands for something", corrupt, "cell 3", [](Blob& b) { cellOf(b, 3).x = 1; }},
+            {"image of roughness", corrupt, "material 0 has no image", [](Blob& b) { materialOf(b, 0).images.x = 3; }},
+            {"image of normals", corrupt, "material 0 has no image", [](Blob& b) { materialOf(b, 0).images.y = 3; }},
+            {"image of emission", corrupt, "material 0 has no image", [](Blob& b) { materialOf(b, 0).images.z = 3; }},
+            {"base colour", corrupt, "material 0 ", [](Blob& b) { materialOf(b, 0).base.y = kNan; }},
+            {"roughness", corrupt, "material 0 ", [](Blob& b) { materialOf(b, 0).finish.x = kInfinity; }},
+            {"density", corrupt, "negative density", [](Blob& b) { materialOf(b, 0).emission.w = -1; }},
+            {"axis", corrupt, "light", [](Blob& b) { b.contents<minirt_light>("LIGHTS")[0].axis.x = kNan; }},
+            {"wrap", corrupt, "image 1", [](Blob& b) { b.contents<minirt_image>("IMAGES")[1].extent.w = 16; }},
+            {"lens", corrupt, "lens", [](Blob& b) { sceneOf(b).camera.aperture = -1; }},
+            {"focus", corrupt, "lens", [](Blob& b) { sceneOf(b).camera.focus_distance = 0; }},
+        });
+}
+
+TEST_CASE("tables with any word changed are refused or still lead only to what is there") {
+    const std::vector<char> bytes = pickingBlob();
+    for (const char* tag : {"EMITTERS", "ENVIRON"}) {
+        Blob blob(bytes);
+        const uint64_t words = blob.section(tag).size / 4;
+        for (uint64_t i = 0; i < words; ++i) {
+            for (const uint32_t value : {0u, 5u, 0x3f800000u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
+                Blob changed(bytes);
+                changed.contents<uint32_t>(tag)[i] = value;
+                changed.seal();
+                if (changed.validate() != MINIRT_OK) continue;
+                const minirt_uvec4& entry = changed.contents<minirt_pick>(tag)[i / 4].entry;
+                CHECK(entry.y < words / 4);
+                CHECK(asFloat(entry.w) >= 0);
+                CHECK(asFloat(entry.w) <= 1);
+            }
+        }
+    }
 }

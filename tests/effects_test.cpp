@@ -14,7 +14,7 @@ using namespace minirtc;
 
 namespace {
 
-/// A scene of one triangle of object 'thing' with one material, 'paint'; no lights, a constant background.
+/// A scene of one triangle of object 'thing' with one material, 'paint'; no lights, a constant background; for Whitted's kernel.
 struct Small {
     Scene scene;
     Geometry geometry;
@@ -24,6 +24,7 @@ struct Small {
     Small() {
         scene.materials.resize(1);
         scene.materials[0].name = "paint";
+        scene.render.integrators = {Integrator::whitted};
         Primitive triangle;
         triangle.p = {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)};
         geometry.primitives = {triangle};
@@ -31,19 +32,26 @@ struct Small {
     }
 
     Material& paint() { return scene.materials[0]; }
+    Physical& physical() { return paint().physical.emplace(); }
+    Small& paths() {
+        scene.render.integrators = {Integrator::whitted, Integrator::path};
+        return *this;
+    }
     Small& light(LightType type) {
         Light light;
         light.type = type;
         scene.lights.push_back(light);
         return *this;
     }
-    uint32_t image(const std::string& name) {
+    uint32_t image(const std::string& name, const glm::vec4& texel = glm::vec4(1)) {
         Image image;
         image.name = name;
+        image.width = image.height = 1;
+        image.texels = {texel};
         scene.images.push_back(image);
         return static_cast<uint32_t>(scene.images.size() - 1);
     }
-    EffectSet effects() const { return analyseEffects(scene, geometry, volumes, floatNodes); }
+    EffectSet effects() const { return analyseEffects(scene, geometry, volumes, floatNodes, scene.render.tracesPaths()); }
 };
 
 std::string reason(const EffectSet& effects, Effect effect) {
@@ -194,6 +202,8 @@ TEST_CASE("geometry and lights and background and nodes call for theirs") {
         CHECK(included(small.effects()) == "point_lights directional_lights ");
         CHECK(reason(small.effects(), Effect::directionalLights) == "light 0");
         CHECK(reason(small.effects(), Effect::pointLights) == "light 1");
+        CHECK(included(small.light(LightType::spot).effects()) == "point_lights directional_lights spot_lights ");
+        CHECK(reason(small.effects(), Effect::spotLights) == "light 2");
     }
     SUBCASE("background") {
         small.scene.background.image = small.image("sky.hdr");
@@ -203,6 +213,96 @@ TEST_CASE("geometry and lights and background and nodes call for theirs") {
     SUBCASE("float nodes") {
         small.floatNodes = true;
         CHECK(included(small.effects()) == "float_nodes ");
+    }
+}
+
+TEST_CASE("what only path tracers read is called for only where one of them is in the blob") {
+    const std::string because = "material 'paint' of thing";
+    Small small;
+    const auto check = [&](const std::string& whitted, const std::string& paths) {
+        CHECK(included(small.effects()) == whitted);
+        CHECK(included(small.paths().effects()) == paths);
+    };
+    SUBCASE("area lights") {
+        small.paint().emission = {1, 0, 0};
+        check("emission ", "area_lights emission ");
+        CHECK(reason(small.effects(), Effect::areaLights) == because);
+    }
+    SUBCASE("the environment, unless it is black") {
+        check("", "");
+        small.scene.background.image = small.image("sky.hdr", {0, 0, 0, 1});
+        CHECK(included(small.effects()) == "background_image ");
+        small.scene.images[0].texels[0].g = 0.1f;
+        CHECK(included(small.effects()) == "environment_light background_image ");
+        CHECK(reason(small.effects(), Effect::environmentLight) == "background 'sky.hdr'");
+        small.scene.background = {};
+        small.scene.background.color = {0, 0, 1};
+        CHECK(included(small.effects()) == "environment_light ");
+        CHECK(reason(small.effects(), Effect::environmentLight) == "background");
+    }
+    SUBCASE("the lobes of a coat and of metal") {
+        small.physical();
+        check("", "");  // of index 1: matte
+        small.paint().ior = 1.5f;
+        CHECK(included(small.effects()) == "microfacets ");
+        CHECK(reason(small.effects(), Effect::microfacets) == because);
+        small.paint().ior = 1;
+        small.physical().metallic = 0.5f;
+        CHECK(included(small.effects()) == "microfacets ");
+    }
+    SUBCASE("rough glass, and no coat on what is all glass") {
+        small.physical().transmission = 1;
+        small.paint().ior = 1.5f;
+        check("", "rough_transmission ");
+        CHECK(reason(small.effects(), Effect::roughTransmission) == because);
+        small.paint().physical->roughness = 0;
+        CHECK(included(small.effects()).empty());
+        small.paint().physical->transmission = 0.5f;
+        CHECK(included(small.effects()) == "microfacets ");
+    }
+    SUBCASE("the lens") {
+        small.scene.camera.aperture = 0.1;
+        check("", "lens ");
+        CHECK(reason(small.effects(), Effect::lens) == "the camera's aperture");
+    }
+    SUBCASE("base colours, which light from anywhere shows") {
+        small.physical().metallic = 1;
+        small.paint().diffuseTexture = small.image("gold.png");
+        check("", "textures microfacets ");
+    }
+}
+
+TEST_CASE("textures call for what reads them") {
+    Small small;
+    small.physical();
+    SUBCASE("normal maps, unless they are flattened") {
+        small.paint().normalTexture = small.image("bumps.png");
+        CHECK(included(small.effects()) == "normal_maps ");
+        small.paint().normalScale = 0;
+        CHECK(included(small.effects()).empty());
+    }
+    SUBCASE("roughness and metallic") {
+        small.paint().surfaceTexture = small.image("worn.png");
+        CHECK(included(small.effects()) == "surface_maps ");
+    }
+    SUBCASE("emission") {
+        small.paint().emissionTexture = small.image("screen.png");
+        CHECK(included(small.effects()).empty());
+        small.paint().emission = {1, 1, 1};
+        CHECK(included(small.effects()) == "emission emission_maps ");
+    }
+    SUBCASE("alpha, where some of it is a hole") {
+        small.paint().diffuseTexture = small.image("leaf.png", {1, 1, 1, 0.6f});
+        CHECK(included(small.effects()).empty());
+        small.paint().alphaMode = AlphaMode::mask;
+        CHECK(included(small.effects()).empty());  // .6 is not under .5
+        small.paint().alpha = 0.8f;
+        CHECK(included(small.effects()) == "alpha ");
+        small.paint().alpha = 1;
+        small.paint().alphaMode = AlphaMode::blend;
+        CHECK(included(small.effects()) == "alpha ");
+        small.scene.images[0].texels[0].a = 1;
+        CHECK(included(small.effects()).empty());
     }
 }
 

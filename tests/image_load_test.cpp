@@ -127,14 +127,21 @@ TEST_CASE("every prefix of an image loads or is refused") {
     }
 }
 
-TEST_CASE("a scene holds each image once") {
+TEST_CASE("a scene holds each image once in each space it is read as") {
     test::TemporaryDir dir;
     const auto path = dir.write("i.tga", tga(1, 1, {{255, 0, 0, 255}}));
     Scene scene;
-    CHECK(addImage(scene, path) == 0);
-    CHECK(addImage(scene, dir.path() / "." / "i.tga") == 0);
-    CHECK(addImage(scene, dir.write("j.tga", tga(1, 1, {{255, 0, 0, 255}}))) == 1);
-    CHECK(scene.images.size() == 2);
+    CHECK(addImage(scene, path, ColorSpace::srgb) == 0);
+    CHECK(addImage(scene, dir.path() / "." / "i.tga", ColorSpace::srgb) == 0);
+    CHECK(addImage(scene, dir.write("j.tga", tga(1, 1, {{128, 0, 0, 255}})), ColorSpace::srgb) == 1);
+    CHECK(addImage(scene, dir.path() / "j.tga", ColorSpace::linear) == 2);
+    CHECK(addImage(scene, dir.path() / "j.tga", ColorSpace::linear) == 2);
+    CHECK(scene.images[1].texels[0].r < 0.3f);
+    CHECK(scene.images[2].texels[0].r == 128 / 255.0f);
+    const auto floats = writeExr(dir, {1, 0, 0, 1}, 1, 1);
+    CHECK(addImage(scene, floats, ColorSpace::srgb) == 3);
+    CHECK(addImage(scene, floats, ColorSpace::linear) == 3);  // floats are linear anyway
+    CHECK(scene.images.size() == 4);
 }
 
 TEST_CASE("the panoramas load") {

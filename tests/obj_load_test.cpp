@@ -19,6 +19,7 @@ class Loader {
 public:
     Mesh load(const std::string& obj) {
         scene = {};
+        scene.render.integrator = integrator;
         return loadObj(dir.write("m.obj", obj), true, scene, diagnostics);
     }
 
@@ -50,6 +51,7 @@ public:
     test::TemporaryDir dir;
     Scene scene;
     Diagnostics diagnostics;
+    Integrator integrator = Integrator::whitted;
     const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 };
 
@@ -330,6 +332,14 @@ TEST_CASE("mtl materials follow the table of the scene format") {
     m = loader.material(colors + "Pr 0\nPm 1\n");
     CHECK(m.diffuse == glm::vec3(0));
     CHECK(m.reflect == kd);
+    REQUIRE(m.physical.has_value());
+    CHECK(m.physical->baseColor == kd);
+    CHECK(m.physical->metallic == 1);
+    CHECK(m.physical->roughness == 0);
+    CHECK(loader.material(colors + "Pm 0\n").physical->roughness == 0.5f);
+    CHECK(loader.material(colors + "Pr 0.25\nd 0.5\n").physical->roughness == 0);
+    CHECK(loader.material(colors + "Pr 0.25\nd 0.75\n").physical->transmission == 0.25f);
+    CHECK_FALSE(loader.material(colors).physical.has_value());
     CHECK(loader.material("").diffuse == glm::vec3(0.5f));
     loader.dir.write("m.mtl", "Kd x\nnewmtl\nKd 1 0 0\nnewmtl b\nKd 0 1 0");
     CHECK(loader.load("mtllib m.mtl\nusemtl\n" + loader.kTriangle).materials.size() == 1);
@@ -353,9 +363,14 @@ TEST_CASE("bad mtl values are refused with their line") {
     CHECK(error("d\n") == "m.mtl:2: '' after d is not a finite number; repair the line");
     CHECK(error("Kd -halo 1\n") == "m.mtl:2: '-halo' after Kd is not a finite number; repair the line");
     CHECK(error("Ns " + std::string(101, '0') + "\n").find("is not a finite number") != std::string::npos);
-    CHECK(error("Pm 1\n") ==
-          "m.mtl:1: the material 'a' is a metal with roughness over 0: not in this version; set Pr to 0 or name another material "
-          "in the scene file");
+    CHECK(
+        error("Pm 1\n") ==
+        "m.mtl:1: the integrator 'whitted' cannot draw the metal 'a' with roughness over 0; set Pr to 0 or name another material "
+        "in the scene file, or draw with \"integrator\": \"path\"");
+    loader.integrator = Integrator::path;
+    CHECK(error("Pm 1\n").empty());
+    CHECK_FALSE(loader.scene.render.uses(Integrator::whitted));
+    CHECK(loader.scene.render.uses(Integrator::wavefront));
 }
 
 TEST_CASE("names with blanks and several libraries are found") {

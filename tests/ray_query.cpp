@@ -31,7 +31,8 @@ std::vector<uint8_t> blobOf(const minirtc::Scene& scene, const minirtc::Geometry
     const minirtc::EncodedNodes nodes = minirtc::encodeNodes(bvh, geometry, layout);
     minirtc::Diagnostics diagnostics;
     const minirtc::Volumes volumes = minirtc::analyseVolumes(scene, geometry, diagnostics);
-    const minirtc::EffectSet effects = minirtc::analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT);
+    const minirtc::EffectSet effects =
+        minirtc::analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT, false);
     return minirtc::assembleBlob({scene, geometry, bvh, nodes, volumes, effects, {minirtc::compileKernel("rays", effects)}});
 }
 

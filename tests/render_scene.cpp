@@ -19,11 +19,12 @@ bool Picture::operator==(const Picture& other) const {
            std::memcmp(rgba.data(), other.rgba.data(), rgba.size() * sizeof(float)) == 0;
 }
 
-std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json, minirtc::LayoutChoice layout) {
+std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json, minirtc::LayoutChoice layout, Kernels kernels) {
     minirtc::BakeOptions options;
     options.scene = dir.write("scene.json", json).string();
     options.output = (dir.path() / "scene.mrt").string();
     options.layout = layout;
+    options.onlyDefault = kernels == Kernels::ofDefault;
     options.quiet = true;
     minirtc::bake(options);
     return options.output;
@@ -66,6 +67,7 @@ Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, con
     options.scene = dir.write("all.json", json).string();
     options.output = (dir.path() / "all.mrt").string();
     options.allEffects = true;
+    options.onlyDefault = true;
     options.quiet = true;
     minirtc::bake(options);
     return LoadedScene(gpu, options.output).render();

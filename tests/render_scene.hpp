@@ -23,9 +23,13 @@ struct Picture {
     bool operator==(const Picture& other) const;  // bit for bit
 };
 
+/// Which a blob holds: those of the scene's own integrator, or of all that can draw it. The fewer, the sooner.
+enum class Kernels { ofDefault, ofAll };
+
 /// Writes `json` as a scene file into `dir`, where the files that it names lie, and bakes it. Warnings go to stderr.
 std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json,
-                                minirtc::LayoutChoice layout = minirtc::LayoutChoice::automatic);
+                                minirtc::LayoutChoice layout = minirtc::LayoutChoice::automatic,
+                                Kernels kernels = Kernels::ofDefault);
 
 /// A blob on a device. A failure of the runtime is a std::runtime_error with its message.
 class LoadedScene {

@@ -56,13 +56,28 @@ TEST_CASE("checker cells alternate across zero and follow the two axes across th
     CHECK(wrong == 0);
 }
 
-TEST_CASE("texels wrap around or stop at the rim") {
+TEST_CASE("texels wrap around, are mirrored or stop at the rim") {
     int wrong = 0;
     for (int size = 1; size <= 4100; size += size < 70 ? 1 : 13) {
-        for (const int i : {-size, -size - 1, -1, 0, 1, size - 1, size, size + 1, 7 * size - 1, 7 * size}) {
-            wrong += f32::wrapTexel(i, size, true) != ((i % size) + size) % size;
-            wrong += f32::wrapTexel(i, size, false) != std::clamp(i, 0, size - 1);
+        for (const int i : {-size, -size - 1, -1, 0, 1, size - 1, size, size + 1, 2 * size, 7 * size - 1, 7 * size}) {
+            const int turn = ((i % (2 * size)) + 2 * size) % (2 * size);
+            wrong += f32::wrapTexel(i, size, f32::WRAP_REPEAT) != ((i % size) + size) % size;
+            wrong += f32::wrapTexel(i, size, f32::WRAP_CLAMP) != std::clamp(i, 0, size - 1);
+            wrong += f32::wrapTexel(i, size, f32::WRAP_MIRROR) != std::min(turn, 2 * size - 1 - turn);
         }
     }
     CHECK(wrong == 0);
+}
+
+TEST_CASE("texture coordinates come back to their image") {
+    for (const float u : {0.0f, 0.25f, 1.0f, 1.75f, 2.0f, 3.5f, -0.25f, -1.5f, 1000.125f}) {
+        CAPTURE(u);
+        CHECK(f32::wrapCoordinate(u, f32::WRAP_REPEAT) == u - std::floor(u));
+        CHECK(f32::wrapCoordinate(u, f32::WRAP_CLAMP) == std::clamp(u, 0.0f, 1.0f));
+        // On the image and its mirror image, the place is the same as that of the triangle wave.
+        const float at = f32::wrapCoordinate(u, f32::WRAP_MIRROR);
+        CHECK(at >= 0);
+        CHECK(at <= 2);
+        CHECK(std::min(at, 2 - at) == std::abs(u - 2 * std::round(u / 2)));
+    }
 }

@@ -26,7 +26,20 @@ struct PixelTask {
     uint slot;
 };
 
-/// A group is a block of 8 x 8 pixels in Morton order: neighbours in a subgroup see the same part of the scene.
+/// The pixel of a slot. A block of 8 x 8 pixels lies together, in Morton order: neighbours in a subgroup see the same part of the scene.
+PixelTask taskOf(uint slot) {
+    uint block = frame.blocks.x + slot / gl_WorkGroupSize.x;
+    uint lane = slot % gl_WorkGroupSize.x;
+    uvec2 inBlock = uvec2(everySecondBit(lane), everySecondBit(lane >> 1));
+    PixelTask task;
+    task.pixel = frame.region.xy + uvec2(block % frame.blocks.y, block / frame.blocks.y) * 8u + inBlock;
+    task.valid = task.pixel.x < frame.region.z && task.pixel.y < frame.region.w;
+    task.filmIndex = task.pixel.y * frame.size.x + task.pixel.x;
+    task.slot = slot;
+    return task;
+}
+
+/// That of an invocation: a group is a block.
 PixelTask pixelTask() {
     uint group = gl_WorkGroupID.x;
     if (INTERLEAVE_GROUPS) {  // devices that give each core one half of the grid: let both halves be alike
@@ -34,15 +47,7 @@ PixelTask pixelTask() {
         uint firstHalf = (groups + 1u) / 2u;
         group = group < firstHalf ? group * 2u : (group - firstHalf) * 2u + 1u;
     }
-    uint block = frame.blocks.x + group;
-    uint lane = gl_LocalInvocationIndex;
-    uvec2 inBlock = uvec2(everySecondBit(lane), everySecondBit(lane >> 1));
-    PixelTask task;
-    task.pixel = frame.region.xy + uvec2(block % frame.blocks.y, block / frame.blocks.y) * 8u + inBlock;
-    task.valid = task.pixel.x < frame.region.z && task.pixel.y < frame.region.w;
-    task.filmIndex = task.pixel.y * frame.size.x + task.pixel.x;
-    task.slot = group * gl_WorkGroupSize.x + lane;
-    return task;
+    return taskOf(group * gl_WorkGroupSize.x + gl_LocalInvocationIndex);
 }
 
 vec3 cameraDirection(uvec2 pixel, uint sampleIndex) {

@@ -12,7 +12,21 @@ bool inEvenCell(vec3 p, vec3 ng, real scale) {
     return sum - real(2) * floor(sum * real(0.5)) == real(0);
 }
 
+/// How an image goes on beyond its rim.
+const uint WRAP_CLAMP = 0u;
+const uint WRAP_REPEAT = 1u;
+const uint WRAP_MIRROR = 2u;
+
+/// A texture coordinate brought to where its image lies: [0, 1], or [0, 2] where that is the image and its mirror image.
+real wrapCoordinate(real u, uint wrap) {
+    if (wrap == WRAP_CLAMP) return clamp(u, real(0), real(1));
+    return wrap == WRAP_MIRROR ? u - real(2) * floor(u * real(0.5)) : u - floor(u);
+}
+
 /// The row or column 0..size-1 that stands in for number i.
-int wrapTexel(int i, int size, bool repeats) {
-    return repeats ? i - size * int(floor(real(i) / real(size))) : clamp(i, 0, size - 1);
+int wrapTexel(int i, int size, uint wrap) {
+    if (wrap == WRAP_CLAMP) return clamp(i, 0, size - 1);
+    int period = wrap == WRAP_MIRROR ? 2 * size : size;
+    int k = i - period * int(floor(real(i) / real(period)));
+    return k < size ? k : period - 1 - k;
 }

@@ -10,7 +10,7 @@ bool passesAlpha(uint slot, vec4 row0, vec4 row2, vec2 b, vec3 origin, vec3 dire
     uint flags = material.options.x & (MINIRT_MATERIAL_ALPHA_MASK | MINIRT_MATERIAL_ALPHA_BLEND);
     if (flags == 0u) return false;
     float alpha = material.transmit.w;
-    if (material.options.y != MINIRT_NONE && corners != MINIRT_NONE) alpha *= sampleTexel(material.options.y, surfaceUv(corners, b)).a;
+    if (material.options.y != MINIRT_NONE && corners != MINIRT_NONE) alpha *= sampleRgba(material.options.y, surfaceUv(corners, b)).a;
     uvec3 ray = floatBitsToUint(direction) + floatBitsToUint(origin) * 0x9e3779b9u;
     float lot = unitReal(hashBits(uvec4(ray, slot)).x);
     return alpha < (flags == MINIRT_MATERIAL_ALPHA_MASK ? material.finish.w : lot) || alpha <= 0.0;

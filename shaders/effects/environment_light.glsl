@@ -2,6 +2,8 @@
 
 #ifdef EFFECT_ENVIRONMENT_LIGHT
 
+const bool BACKGROUND_SHINES = true;
+
 layout(binding = MINIRT_BINDING_ENVIRONMENT) uniform usamplerBuffer cellRows;
 
 /// Density per steradian with which a path picks this direction, of all that it can pick.
@@ -23,6 +25,8 @@ vec3 pickDirection(uvec2 bits, vec2 u) {
 }
 
 #else
+
+const bool BACKGROUND_SHINES = false;
 
 float environmentPdf(vec3 direction) { return 0.0; }
 vec3 pickDirection(uvec2 bits, vec2 u) { return vec3(0.0, 1.0, 0.0); }

@@ -24,6 +24,8 @@ vec3 transmittance(uint medium, float distance) { return vec3(1.0); }
 
 #ifdef EFFECT_INSCATTER
 
+const bool MEDIA_SHINE = true;
+
 /// What a medium adds of its own over `distance` metres.
 vec3 inscattered(uint medium, float distance) {
     vec4 absorption = mediumRow(medium, 0);
@@ -33,6 +35,8 @@ vec3 inscattered(uint medium, float distance) {
 }
 
 #else
+
+const bool MEDIA_SHINE = false;
 
 vec3 inscattered(uint medium, float distance) { return vec3(0.0); }
 

@@ -6,16 +6,23 @@ const uint SURE_BOUNCES = 3u;
 
 bool hasEnded(Path path) { return path.throughput == vec3(0.0); }
 
-/// The path's ray has ended at distance t: its medium, then what shines there. `hit`: at a surface; else in the background.
-void gather(inout Path path, bool hit, Encounter e, uint slot, float t) {
-    uint medium = hit ? e.boundary.from : mediumAround(path.volumes);
+/// The path's ray has come through `medium` over a distance t.
+void passMedium(inout Path path, uint medium, float t) {
     path.radiance += path.throughput * inscattered(medium, t);
     path.throughput *= transmittance(medium, t);
-    if (hit && e.boundary.skipped) return;
-    vec3 shine = hit ? emission(e.material, e.entering, e.surface.uv) : backgroundRadiance(path.direction);
-    float density = hit ? emitterPdf(slot, path.vertex, e.surface.p, e.ng, path.direction) : environmentPdf(path.direction);
-    path.radiance += path.throughput * shine * foundWeight(path.pdf, density);
-    if (!hit) path.throughput = vec3(0.0);
+}
+
+/// What shines where the path's ray has met a surface.
+void gather(inout Path path, Encounter e, uint slot) {
+    float density = emitterPdf(slot, path.vertex, e.surface.p, e.ng, path.direction);
+    path.radiance += path.throughput * emission(e.material, e.entering, e.surface.uv) * foundWeight(path.pdf, density);
+}
+
+/// The path's ray has left the scene.
+void leave(inout Path path) {
+    passMedium(path, mediumAround(path.volumes), MINIRT_RAY_END);
+    path.radiance += path.throughput * backgroundRadiance(path.direction) * foundWeight(path.pdf, environmentPdf(path.direction));
+    path.throughput = vec3(0.0);
 }
 
 /// All light together that meets a medium which disperses goes on as one of its channels, as likely as the others.
@@ -87,13 +94,14 @@ void depart(inout Path path, Encounter e, Bsdf bsdf, uvec2 pixel) {
 /// The path has met a surface. Gives the shadow ray, empty where there is none; the path's own next ray is in `path`.
 Traversal visit(inout Path path, Encounter e, uint slot, float t, uvec2 pixel) {
     chooseChannel(path, e, pixel);
-    gather(path, true, e, slot, t);
+    passMedium(path, e.boundary.from, t);
     if (e.boundary.skipped) {  // costs neither depth nor random numbers
         path.origin = belowSurface(e);
         path.volumes = e.boundary.transmitted;
         if (!SHADOWS_PASS) path.pdf = 0.0;  // no shadow ray gets here
         return noRay();
     }
+    gather(path, e, slot);
     Bsdf bsdf = bsdfAt(e, path.direction);
     Traversal shadow = noRay();
     if (path.bounces <= frame.sampling.z && isRough(bsdf)) shadow = startShadow(path, e, bsdf, pixel);
@@ -118,29 +126,38 @@ Traversal passShadow(inout Path path, Traversal ray, Encounter e) {
 /// The shadow ray has reached the light.
 void addPicked(inout Path path, Traversal ray) { path.radiance += path.unshadowed * transmittance(mediumAround(path.shadowVolumes), ray.t); }
 
-/// The ray of the path's phase is done: gives the next one. None is left where the phase is PHASE_DONE.
-Traversal follow(inout Path path, Traversal ray, uvec2 pixel, inout uvec2 rays) {
-    bool hit = ray.slot != MINIRT_NONE;
-    bool toLight = path.phase == PHASE_SHADOW;
-    bool toCamera = TRACKS_VOLUMES && path.phase == PHASE_CAMERA;
-    bool clear = SHADOWS_PASS && toLight && hit && mayBeClear(ray.slot);
+/// The surface that the ray in flight has met.
+Encounter encounterOf(Path path, Traversal ray) {
     VolumeList volumes = path.volumes;
-    if (toLight) volumes = path.shadowVolumes;
-    Encounter e = encounterAt(ray.origin, ray.direction, hit ? ray.slot : 0u, ray.t, volumes, path.channel);
-    if (hit && e.boundary.overflow) atomicAdd(counters.volume_overflow, 1u);
-    Traversal next = noRay();
-    if (toCamera && hit) {
-        path.volumes = e.boundary.transmitted;
-        return passToCamera(ray, path.origin, e);
+    if (path.phase == PHASE_SHADOW) volumes = path.shadowVolumes;
+    Encounter e = encounterAt(ray.origin, ray.direction, ray.slot == MINIRT_NONE ? 0u : ray.slot, ray.t, volumes, path.channel);
+    if (ray.slot != MINIRT_NONE && e.boundary.overflow) atomicAdd(counters.volume_overflow, 1u);
+    return e;
+}
+
+/// The path's own ray, or the one to the camera, has met a surface: gives the ray that follows before the path's next one, empty where there is none.
+Traversal meetSurface(inout Path path, Traversal ray, Encounter e, uvec2 pixel) {
+    if (!TRACKS_VOLUMES || path.phase != PHASE_CAMERA) return visit(path, e, ray.slot, ray.t, pixel);
+    path.volumes = e.boundary.transmitted;
+    return passToCamera(ray, path.origin, e);
+}
+
+/// The same for rays that have met nothing.
+void meetNothing(inout Path path) {
+    if (!TRACKS_VOLUMES || path.phase != PHASE_CAMERA) leave(path);
+}
+
+/// Whether a shadow ray must look at the surface it has met.
+bool looksThrough(Traversal shadow) { return SHADOWS_PASS && shadow.slot != MINIRT_NONE && mayBeClear(shadow.slot); }
+
+/// The path's next ray, or `before` it another one.
+Traversal nextRay(inout Path path, Traversal before, inout uvec2 rays) {
+    if (!isDone(before)) {
+        rays.x += path.phase == PHASE_SHADOW ? 1u : 0u;
+        return before;
     }
-    if (clear) next = passShadow(path, ray, e);
-    if (toLight && !hit) addPicked(path, ray);
-    if (!toLight && !toCamera && hit) next = visit(path, e, ray.slot, ray.t, pixel);
-    if (!toLight && !toCamera && !hit) gather(path, false, e, 0u, ray.t);
-    rays.x += isDone(next) ? 0u : 1u;
-    if (!isDone(next)) return next;
+    rays.y += !hasEnded(path) && path.phase != PHASE_CAMERA ? 1u : 0u;
     path.phase = hasEnded(path) ? PHASE_DONE : PHASE_CLOSEST;
-    rays.y += path.phase == PHASE_CLOSEST && !toCamera ? 1u : 0u;
     return beginRay(path);
 }
 
