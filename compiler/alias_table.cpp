@@ -20,6 +20,7 @@ std::vector<AliasEntry> aliasTable(const std::vector<double>& weights) {
     const auto count = static_cast<uint32_t>(weights.size());
     const double largest = *std::max_element(weights.begin(), weights.end());
     std::vector<double> shares;  // of an entry, 1 on average; against overflow the largest weight counts 1 before
+    shares.reserve(count);
     for (const double weight : weights) shares.push_back(weight / largest);
     const double scale = count / std::accumulate(shares.begin(), shares.end(), 0.0);
     std::vector<uint32_t> poor, rich;

@@ -100,7 +100,7 @@ int bake(const BakeOptions& options) {
     const Geometry geometry = flatten(scene, diagnostics);
     const Bvh bvh = buildBvh(geometry, options.threads);
     const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
-    const Volumes volumes = analyseVolumes(scene, geometry, diagnostics);
+    const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, options.threads);
     const bool floatNodes = nodes.layout == MINIRT_NODES_FLOAT;
     EffectSet effects = analyseEffects(scene, geometry, volumes, floatNodes, scene.render.tracesPaths());
     EffectSet whitted = analyseEffects(scene, geometry, volumes, floatNodes, false);

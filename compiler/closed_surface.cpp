@@ -188,6 +188,12 @@ void turn(Primitive& triangle, std::vector<CornerAttributes>& corners) {
     for (glm::vec3& n : attributes.normals) n = -n;
 }
 
+/// How an open mesh can do without an inside.
+std::string waysToBeThin(const Body& body) {
+    if (!body.isFromMtl) return ", or give the material \"thin\": true";
+    return ", or make its material a thin sheet: 'Ni 1' in the .mtl file, or name one with \"thin\": true in the scene file";
+}
+
 }  // namespace
 
 ClosedSurface requireClosed(const std::vector<Primitive>& triangles, const std::vector<Primitive>& slivers, const Body& body,
@@ -197,12 +203,12 @@ ClosedSurface requireClosed(const std::vector<Primitive>& triangles, const std::
         throw Error(body.location,
                     body.name + " transmits light but is not closed: " +
                         describe(table.open(), "with a face on one side only", table, origin),
-                    "close the mesh, or give the material \"thin\": true");
+                    "close the mesh" + waysToBeThin(body));
     if (!table.unbalanced().empty())
         throw Error(body.location,
                     body.name + " transmits light but its faces do not agree on where its inside is: " +
                         describe(table.unbalanced(), "along which they run the same way", table, origin),
-                    "wind all faces counter-clockwise as seen from outside, or give the material \"thin\": true");
+                    "wind all faces counter-clockwise as seen from outside" + waysToBeThin(body));
     SignedVolume volume;
     for (const Primitive& triangle : triangles) volume.add(triangle);
     return {volume.value(), largestOfGroups(triangles, table)};

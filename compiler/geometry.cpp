@@ -186,7 +186,7 @@ private:
         if (isNew) {
             const bool ownMaterials = object.material == kNone && bounded != kNone;
             const std::string suffix = ownMaterials ? " (" + scene_.materials[material].name + ")" : "";
-            out_.bodies.push_back({instanceName_ + suffix, object.location, bounded, object.priority});
+            out_.bodies.push_back({instanceName_ + suffix, object.location, bounded, object.priority, object.material == kNone});
         }
         return entry->second;
     }

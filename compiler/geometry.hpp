@@ -25,6 +25,7 @@ struct Body {
     SourceLocation location;    // of the object in the scene file
     uint32_t material = kNone;  // of a volume; kNone where the body bounds none
     int priority = 0;
+    bool isFromMtl = false;  // its material is one of the mesh's own .mtl
     bool isVolume() const { return material != kNone; }
 };
 

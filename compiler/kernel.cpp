@@ -56,6 +56,7 @@ const std::vector<std::string> kPathParts = {
 const std::string kHeader = R"(#version 460
 #extension GL_GOOGLE_cpp_style_line_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #define MINIRT_UINT uint
 #define minirt_vec4 vec4
 #define minirt_uvec4 uvec4

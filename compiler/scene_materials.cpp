@@ -108,6 +108,14 @@ void readIndex(const JsonObject& object, Material& material) {
     }
 }
 
+/// Of an opaque material with keys that say what is inside.
+void warnOfNoInside(const SceneFile& file, const JsonObject& object, const std::string& what) {
+    for (const char* key : {"attenuationColor", "attenuationDistance", "inscatter", "dispersion", "glass"})
+        if (const JsonValue* value = object.find(key))
+            file.diagnostics.warn(file.at(*value), what + " is opaque: '" + key + "' tells of an inside that it does not have",
+                                  "give it 'transmission' or leave the key out");
+}
+
 uint32_t readTexture(const JsonObject& object, const std::string& key, ColorSpace space, Scene& scene) {
     return object.has(key) ? addImage(scene, object.file(key), space) : kNone;
 }
@@ -157,6 +165,7 @@ Material readPbr(SceneFile& file, const JsonValue& value, const std::string& wha
     readTextures(object, material, scene);
     material.medium = readMedium(object);
     readIndex(object, material);
+    if (physical.transmission == 0) warnOfNoInside(file, object, what);
     setWeights(physical, material);
     material.emission = object.color("emissive", glm::vec3(0), kNotNegative);
     material.doubleSided = object.boolean("doubleSided", false);

@@ -9,7 +9,10 @@
 namespace minirtc {
 namespace {
 
-constexpr size_t kManyPrimitives = 8192;  // worth threads
+unsigned worthThreads(size_t primitives, unsigned threads) {
+    constexpr size_t kMany = 8192;
+    return primitives < kMany ? 1 : threads;
+}
 
 /// No component is 0 and no two are alike, so that a ray is parallel to nothing that people build.
 constexpr std::array<std::array<double, 3>, 8> kDirections = {{{0.5345, 0.2673, 0.8018},
@@ -163,9 +166,9 @@ Triangle triangleOf(const Primitive& primitive) {
     return {glm::dvec3(primitive.p[0]), glm::dvec3(primitive.p[1]), glm::dvec3(primitive.p[2])};
 }
 
-Surface::Surface(std::vector<Primitive> primitives) {
+Surface::Surface(std::vector<Primitive> primitives, unsigned threads) {
     shapes_.primitives = std::move(primitives);
-    bvh_ = buildBvh(shapes_, shapes_.primitives.size() < kManyPrimitives ? 1 : 0);
+    bvh_ = buildBvh(shapes_, worthThreads(shapes_.primitives.size(), threads));
     std::vector<Primitive> ordered;
     ordered.reserve(bvh_.order.size());
     for (const uint32_t i : bvh_.order) ordered.push_back(shapes_.primitives[i]);
@@ -210,23 +213,15 @@ bool Surface::mayTouch(const Aabb& box) const {
     return false;
 }
 
-bool areNear(const Aabb& a, const Aabb& b, double reach) {
-    for (int i = 0; i < 3; ++i)
-        if (!(double{a.lo[i]} - reach <= b.hi[i] && double{b.lo[i]} - reach <= a.hi[i] && a.lo[i] <= a.hi[i] &&
-              b.lo[i] <= b.hi[i]))
-            return false;
-    return true;
-}
-
 bool anyPair(const Surface& a, const Surface& b, double reach, const PairQuestion& question) {
     const std::atomic<bool> stop{false};
     return anyBelow({a.root(), b.root()}, a, b, reach, question, stop);
 }
 
-bool anyPairWithin(const Surface& surface, const PairQuestion& question) {
+bool anyPairWithin(const Surface& surface, const PairQuestion& question, unsigned threads) {
     std::atomic<bool> found{false};
     const std::vector<ChildPair> tasks = tasksOf(surface);
-    ThreadPool pool(surface.primitives().size() < kManyPrimitives ? 1 : 0);
+    ThreadPool pool(worthThreads(surface.primitives().size(), threads));
     pool.parallelFor(tasks.size(), [&](size_t i) {
         if (!found && anyBelow(tasks[i], surface, surface, 0, question, found)) found = true;
     });

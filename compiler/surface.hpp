@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "bvh.hpp"
+#include "box_pairs.hpp"
 #include "triangle_pair.hpp"
 
 namespace minirtc {
@@ -12,7 +12,8 @@ Triangle triangleOf(const Primitive& primitive);
 
 class Surface {
 public:
-    explicit Surface(std::vector<Primitive> primitives);
+    /// On up to `threads` threads (0: all cores), as all below: no answer depends on it.
+    Surface(std::vector<Primitive> primitives, unsigned threads);
 
     const Aabb& box() const { return root_.box; }
     /// In the order of the leaves: those of a leaf are [index, index + count).
@@ -34,9 +35,6 @@ private:
     BvhChild root_;
 };
 
-/// True where the boxes are no more than `reach` apart in every direction; never for empty ones.
-bool areNear(const Aabb& a, const Aabb& b, double reach);
-
 /// Asked of pairs whose boxes are near each other; true ends the search.
 using PairQuestion = std::function<bool(const Primitive& a, const Primitive& b)>;
 
@@ -44,6 +42,6 @@ using PairQuestion = std::function<bool(const Primitive& a, const Primitive& b)>
 bool anyPair(const Surface& a, const Surface& b, double reach, const PairQuestion& question);
 
 /// The same of two primitives of one surface. `question` is asked on several threads.
-bool anyPairWithin(const Surface& surface, const PairQuestion& question);
+bool anyPairWithin(const Surface& surface, const PairQuestion& question, unsigned threads);
 
 }  // namespace minirtc

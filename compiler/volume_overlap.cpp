@@ -178,12 +178,12 @@ bool isContent(const Surface& thing, const Surface& volume) {
     return sidesOf(thing, volume, judge, [](const Sides& sides) { return sides.inside; }).inside;
 }
 
-bool overlapsItself(const Solid& solid) {
-    const bool crosses = anyPairWithin(solid.surface, [](const Primitive& p, const Primitive& q) {
+bool overlapsItself(const Solid& solid, unsigned threads) {
+    const auto cross = [](const Primitive& p, const Primitive& q) {
         const Meeting meeting = meetPrimitives(p, q).meeting;
         return meeting == Meeting::crossing || meeting == Meeting::sameFront;
-    });
-    if (crosses) return true;
+    };
+    if (anyPairWithin(solid.surface, cross, threads)) return true;
     return std::any_of(solid.shells.begin(), solid.shells.end(),
                        [&](const Triangle& shell) { return solid.surface.windingBefore(shell).value_or(0) != 0; });
 }

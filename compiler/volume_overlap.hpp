@@ -25,7 +25,7 @@ bool isContent(const Surface& thing, const Surface& volume);
 
 /// True where the surface crosses itself, or where one of its shells is in another and encloses the space there once more. A shell that faces
 /// inward there bounds a cavity, which is no overlap.
-bool overlapsItself(const Solid& solid);
+bool overlapsItself(const Solid& solid, unsigned threads);
 
 /// True where a shell has its front on the inside, with nothing around it.
 bool isInsideOutInPart(const Solid& solid);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "closed_surface.hpp"
+#include "parallel.hpp"
 #include "volume_overlap.hpp"
 
 namespace minirtc {
@@ -43,19 +45,19 @@ std::vector<std::vector<Primitive>> volumePrimitives(const Geometry& geometry, c
 Volume sphereVolume(uint32_t body, const Primitive& sphere) {
     const double radius = sphere.p[1].x;
     constexpr double kPi = 3.14159265358979323846;
-    return {body, {Surface({sphere}), {}}, 4.0 / 3.0 * kPi * radius * radius * radius};
+    return {body, {Surface({sphere}, 1), {}}, 4.0 / 3.0 * kPi * radius * radius * radius};
 }
 
 /// Throws Error where it is none.
 Volume meshVolume(const Geometry& geometry, uint32_t body, const std::vector<Primitive>& triangles,
-                  const std::vector<Primitive>& slivers) {
+                  const std::vector<Primitive>& slivers, unsigned threads) {
     const ClosedSurface closed = requireClosed(triangles, slivers, geometry.bodies[body], geometry.origin);
-    Volume volume = {body, {Surface(triangles), {}}, closed.size};
+    Volume volume = {body, {Surface(triangles, threads), {}}, closed.size};
     for (const uint32_t shell : closed.shells) volume.solid.shells.push_back(triangleOf(triangles[shell]));
     return volume;
 }
 
-std::vector<Volume> volumesOf(const Geometry& geometry) {
+std::vector<Volume> volumesOf(const Geometry& geometry, unsigned threads) {
     const std::vector<std::vector<Primitive>> primitives = volumePrimitives(geometry, geometry.primitives),
                                               slivers = volumePrimitives(geometry, geometry.slivers);
     std::vector<Volume> volumes;
@@ -63,7 +65,7 @@ std::vector<Volume> volumesOf(const Geometry& geometry) {
         if (!geometry.bodies[body].isVolume() || primitives[body].empty()) continue;
         const bool isSphere = primitives[body][0].isSphere;
         volumes.push_back(isSphere ? sphereVolume(body, primitives[body][0])
-                                   : meshVolume(geometry, body, primitives[body], slivers[body]));
+                                   : meshVolume(geometry, body, primitives[body], slivers[body], threads));
     }
     return volumes;
 }
@@ -77,38 +79,58 @@ double offsetBound(const Aabb& a, const Aabb& b) {
     return kGamma7 * largest;
 }
 
+std::vector<Aabb> boxesOf(const Geometry& geometry) {
+    std::vector<Aabb> boxes(geometry.bodies.size());
+    for (const Primitive& primitive : geometry.primitives) boxes[primitive.body].grow(bounds(primitive));
+    return boxes;
+}
+
 /// The least number k such that every set of volumes has one that overlaps at most k others of the set: no k + 2 volumes all overlap one another.
 uint32_t degeneracy(const std::vector<std::vector<uint32_t>>& neighbours) {
+    std::set<IndexPair> left;  // degree and volume
     std::vector<uint32_t> degree;
-    degree.reserve(neighbours.size());
-    for (const std::vector<uint32_t>& list : neighbours) degree.push_back(static_cast<uint32_t>(list.size()));
+    for (const std::vector<uint32_t>& list : neighbours) {
+        left.emplace(static_cast<uint32_t>(list.size()), static_cast<uint32_t>(degree.size()));
+        degree.push_back(static_cast<uint32_t>(list.size()));
+    }
     uint32_t result = 0;
-    for (size_t removed = 0; removed < neighbours.size(); ++removed) {
-        const auto least = std::min_element(degree.begin(), degree.end());  // kNone: removed
-        result = std::max(result, *least);
-        *least = kNone;
-        for (const uint32_t other : neighbours[static_cast<size_t>(least - degree.begin())])
-            if (degree[other] != kNone) --degree[other];
+    while (!left.empty()) {
+        const auto [least, volume] = *left.begin();
+        left.erase(left.begin());
+        result = std::max(result, least);
+        for (const uint32_t other : neighbours[volume])
+            if (left.erase({degree[other], other}) > 0) left.emplace(--degree[other], other);
     }
     return result;
 }
 
 constexpr size_t kShownPairs = 8;  // warnings of a kind
 
+/// A volume and another body, which may be a volume.
+struct Neighbours {
+    uint32_t body, volume;  // index into Geometry::bodies; into the list of volumes
+};
+
 class Analysis {
 public:
-    Analysis(const Scene& scene, const Geometry& geometry, Diagnostics& diagnostics)
-        : scene_(scene), geometry_(geometry), diagnostics_(diagnostics), volumes_(volumesOf(geometry)) {}
+    Analysis(const Scene& scene, const Geometry& geometry, Diagnostics& diagnostics, unsigned threads)
+        : scene_(scene),
+          geometry_(geometry),
+          diagnostics_(diagnostics),
+          threads_(threads),
+          volumes_(volumesOf(geometry, threads)) {}
 
     Volumes run() {
         makeOrder();
         result_.count = static_cast<uint32_t>(volumes_.size());
         overlaps_.resize(volumes_.size());
-        for (uint32_t i = 0; i < volumes_.size(); ++i)
-            for (uint32_t k = i + 1; k < volumes_.size(); ++k) comparePair(i, k);
-        warnOfMore();
+        if (volumes_.empty()) return std::move(result_);
+        findNeighbours();
+        compareVolumes();
         findSelfOverlap();
-        findContent();
+        findLightsInside();
+        compareOthers();
+        warnOfMore();
         makeCapacity();
         return std::move(result_);
     }
@@ -135,12 +157,46 @@ private:
             if (!isListed[body]) result_.order.push_back(body);
     }
 
-    void comparePair(uint32_t i, uint32_t k) {
+    /// By their boxes.
+    void findNeighbours() {
+        std::vector<uint32_t> volumeOf(geometry_.bodies.size(), kNone);
+        for (uint32_t i = 0; i < volumes_.size(); ++i) volumeOf[volumes_[i].body] = i;
+        const auto wanted = [&](uint32_t a, uint32_t b) { return volumeOf[a] != kNone || volumeOf[b] != kNone; };
+        const Aabb all{geometry_.boundsMin, geometry_.boundsMax};
+        for (const auto& [a, b] : nearPairs(boxesOf(geometry_), 2 * offsetBound(all, all), wanted)) {
+            if (volumeOf[a] != kNone && volumeOf[b] != kNone)
+                volumePairs_.emplace_back(volumeOf[a], volumeOf[b]);
+            else
+                others_.push_back(volumeOf[a] == kNone ? Neighbours{a, volumeOf[b]} : Neighbours{b, volumeOf[a]});
+        }
+        std::sort(others_.begin(), others_.end(), [](const Neighbours& a, const Neighbours& b) {
+            return std::tie(a.body, a.volume) < std::tie(b.body, b.volume);
+        });
+    }
+
+    struct Comparison {
+        Overlap overlap = Overlap::none;
+        double contact = 0;  // where the surfaces lie on each other: how near counts
+    };
+
+    static Comparison compare(const Volume& a, const Volume& b) {
+        return {overlapOf(a.solid, b.solid), contactOf(a.surface(), b.surface())};
+    }
+
+    void compareVolumes() {
+        std::vector<Comparison> comparisons(volumePairs_.size());
+        ThreadPool(threads_).parallelFor(volumePairs_.size(), [&](size_t i) {
+            comparisons[i] = compare(volumes_[volumePairs_[i].first], volumes_[volumePairs_[i].second]);
+        });
+        for (size_t i = 0; i < comparisons.size(); ++i) note(volumePairs_[i].first, volumePairs_[i].second, comparisons[i]);
+    }
+
+    void note(uint32_t i, uint32_t k, const Comparison& comparison) {
         const Volume &a = volumes_[i], &b = volumes_[k];
-        const double distance = 2 * offsetBound(a.surface().box(), b.surface().box());
-        if (!areNear(a.surface().box(), b.surface().box(), distance)) return;
-        if (lieOnEachOther(a.surface(), b.surface(), distance)) warnOfContact(a, b, distance);
-        const Overlap overlap = overlapOf(a.solid, b.solid);
+        if (comparison.contact > 0)
+            warnOfContact(bodyOf(a), bodyOf(b), bodyOf(b).location,
+                          "let the two overlap by more than " + metres(comparison.contact));
+        const Overlap overlap = comparison.overlap;
         if (overlap == Overlap::none) return;
         overlaps_[i].push_back(k);
         overlaps_[k].push_back(i);
@@ -168,12 +224,15 @@ private:
         result_.displacements.push_back({above.body, below.body, reason});
     }
 
-    void warnOfContact(const Volume& a, const Volume& b, double distance) {
+    /// A little more than a distance that is too short.
+    static std::string metres(double distance) { return toText("%.2g m", 1.05 * distance); }
+
+    void warnOfContact(const Body& a, const Body& b, const SourceLocation& location, const std::string& hint) {
         if (contacts_++ >= kShownPairs) return;
-        diagnostics_.warn(bodyOf(b).location,
-                          "faces of " + bodyOf(a).name + " and " + bodyOf(b).name +
+        diagnostics_.warn(location,
+                          "faces of " + a.name + " and " + b.name +
                               " lie on each other, or nearer than rounding can tell: a ray may pass over one of them",
-                          "let the two overlap by more than " + toText("%.2g m", 1.05 * distance));
+                          hint);
     }
 
     /// Where neither priorities nor one inside the other decide, and the sizes hardly do.
@@ -192,10 +251,10 @@ private:
     void warnOfMore() {
         const auto more = [&](size_t count, const std::string& what, const std::string& hint) {
             if (count > kShownPairs)
-                diagnostics_.warn({scene_.path}, std::to_string(count - kShownPairs) + " more pairs of volumes " + what, hint);
+                diagnostics_.warn({scene_.path}, std::to_string(count - kShownPairs) + " more pairs of " + what, hint);
         };
-        more(contacts_, "have faces that lie on each other, or nearer than rounding can tell", "let them overlap");
-        more(guesses_, "overlap and are of like size", "--explain lists them");
+        more(contacts_, "bodies have faces that lie on each other, or nearer than rounding can tell", "let them overlap");
+        more(guesses_, "volumes overlap and are of like size", "--explain lists them");
     }
 
     void findSelfOverlap() {
@@ -204,16 +263,9 @@ private:
             if (isInsideOutInPart(volume.solid))
                 diagnostics_.warn(body.location, body.name + " is inside out in part: a piece of it has its front inside",
                                   "wind all faces counter-clockwise as seen from outside");
-            if (result_.selfOverlap.empty() && overlapsItself(volume.solid)) result_.selfOverlap = body.name + " overlaps itself";
+            if (result_.selfOverlap.empty() && overlapsItself(volume.solid, threads_))
+                result_.selfOverlap = body.name + " overlaps itself";
         }
-    }
-
-    void findContent() {
-        if (volumes_.empty()) return;
-        findLightsInside();
-        std::vector<std::vector<Primitive>> near = primitivesNearVolumes();
-        for (uint32_t body = 0; body < near.size() && result_.content.empty(); ++body)
-            if (!near[body].empty()) findInside(body, Surface(std::move(near[body])));
     }
 
     void findLightsInside() {
@@ -228,33 +280,53 @@ private:
         }
     }
 
-    void findInside(uint32_t body, const Surface& thing) {
-        for (const Volume& volume : volumes_) {
-            if (!isContent(thing, volume.surface())) continue;
-            result_.content = geometry_.bodies[body].name + " in " + bodyOf(volume).name;
-            return;
+    /// Volumes with what is none.
+    void compareOthers() {
+        std::vector<std::vector<Primitive>> near = primitivesNearVolumes();
+        std::vector<std::optional<Surface>> surfaces(near.size());
+        for (size_t body = 0; body < near.size(); ++body)
+            if (!near[body].empty()) surfaces[body].emplace(std::move(near[body]), threads_);
+        std::vector<double> contacts(others_.size());
+        ThreadPool(threads_).parallelFor(others_.size(), [&](size_t i) {
+            if (const std::optional<Surface>& thing = surfaces[others_[i].body])
+                contacts[i] = contactOf(*thing, volumes_[others_[i].volume].surface());
+        });
+        for (size_t i = 0; i < others_.size(); ++i) {
+            const Volume& volume = volumes_[others_[i].volume];
+            const Body& body = geometry_.bodies[others_[i].body];
+            if (contacts[i] > 0)
+                warnOfContact(bodyOf(volume), body, bodyOf(volume).location,
+                              "move one so that they are more than " + metres(contacts[i]) + " apart, or overlap by more");
+            const std::optional<Surface>& thing = surfaces[others_[i].body];
+            if (result_.content.empty() && thing && isContent(*thing, volume.surface()))
+                result_.content = body.name + " in " + bodyOf(volume).name;
         }
     }
 
-    /// Of each body that is no volume: what is in the box of a volume.
+    /// How near counts where the surfaces lie on each other, else 0.
+    static double contactOf(const Surface& a, const Surface& b) {
+        const double distance = 2 * offsetBound(a.box(), b.box());
+        return lieOnEachOther(a, b, distance) ? distance : 0;
+    }
+
+    /// Of each body that is no volume: what is near the box of a volume.
     std::vector<std::vector<Primitive>> primitivesNearVolumes() const {
-        const std::vector<Bounds> boxes = bodyBounds(geometry_);
-        std::vector<std::vector<Aabb>> nearBody(geometry_.bodies.size());
-        for (uint32_t body = 0; body < geometry_.bodies.size(); ++body)
-            for (const Volume& volume : volumes_)
-                if (!geometry_.bodies[body].isVolume() && areNear({boxes[body].min, boxes[body].max}, volume.surface().box(), 0))
-                    nearBody[body].push_back(volume.surface().box());
+        std::vector<std::vector<uint32_t>> volumesNear(geometry_.bodies.size());
+        for (const Neighbours& pair : others_) volumesNear[pair.body].push_back(pair.volume);
         std::vector<std::vector<Primitive>> near(geometry_.bodies.size());
         for (const Primitive& primitive : geometry_.primitives) {
-            const std::vector<Aabb>& candidates = nearBody[primitive.body];
-            const auto isNear = [&](const Aabb& box) { return areNear(bounds(primitive), box, 0); };
+            const std::vector<uint32_t>& candidates = volumesNear[primitive.body];
+            const Aabb box = bounds(primitive);
+            const auto isNear = [&](uint32_t volume) {
+                const Aabb& other = volumes_[volume].surface().box();
+                return areNear(box, other, 2 * offsetBound(box, other));
+            };
             if (std::any_of(candidates.begin(), candidates.end(), isNear)) near[primitive.body].push_back(primitive);
         }
         return near;
     }
 
     void makeCapacity() {
-        if (volumes_.empty()) return;
         const uint32_t bound = degeneracy(overlaps_) + 1;
         result_.capacity = std::min(bound, kMostNested);
         if (bound > kMostNested)
@@ -267,7 +339,10 @@ private:
     const Scene& scene_;
     const Geometry& geometry_;
     Diagnostics& diagnostics_;
+    unsigned threads_;
     std::vector<Volume> volumes_;
+    std::vector<IndexPair> volumePairs_;           // that may touch, as indices into volumes_
+    std::vector<Neighbours> others_;               // the same of a volume and what is none
     std::vector<std::vector<uint32_t>> overlaps_;  // of each volume
     size_t contacts_ = 0, guesses_ = 0;            // pairs that a warning tells of
     Volumes result_;
@@ -275,8 +350,8 @@ private:
 
 }  // namespace
 
-Volumes analyseVolumes(const Scene& scene, const Geometry& geometry, Diagnostics& diagnostics) {
-    return Analysis(scene, geometry, diagnostics).run();
+Volumes analyseVolumes(const Scene& scene, const Geometry& geometry, Diagnostics& diagnostics, unsigned threads) {
+    return Analysis(scene, geometry, diagnostics, threads).run();
 }
 
 }  // namespace minirtc

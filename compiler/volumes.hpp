@@ -29,7 +29,8 @@ struct Volumes {
 constexpr uint32_t kMostNested = 16;
 
 /// Checks that each volume is closed and consistently oriented, finds which overlap, and derives the order. Throws Error naming the object
-/// where a volume is open; warns where the order is a guess or where surfaces coincide or overlap by less than rounding can tell.
-Volumes analyseVolumes(const Scene& scene, const Geometry& geometry, Diagnostics& diagnostics);
+/// where a volume is open; warns where the order is a guess or where its surface and another's coincide or overlap by less than rounding
+/// can tell. On up to `threads` threads (0: all cores); the result does not depend on it.
+Volumes analyseVolumes(const Scene& scene, const Geometry& geometry, Diagnostics& diagnostics, unsigned threads = 0);
 
 }  // namespace minirtc

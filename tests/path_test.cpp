@@ -54,12 +54,33 @@ std::string only(const std::string& material, const std::string& objects) {
     return R"("materials":{"m":)" + material + R"(},"objects":[)" + objects + "]";
 }
 
+/// Squares of `side` pixels become one, with their mean.
+Picture shrink(const Picture& fine, uint32_t side) {
+    Picture picture;
+    picture.width = fine.width / side, picture.height = fine.height / side;
+    picture.rgba.resize(size_t{picture.width} * picture.height * 4);
+    const float share = 1.0f / static_cast<float>(side * side);
+    for (uint32_t y = 0; y < fine.height; ++y)
+        for (uint32_t x = 0; x < fine.width; ++x)
+            for (uint32_t k = 0; k < 4; ++k)
+                picture.rgba[(size_t{y / side} * picture.width + x / side) * 4 + k] +=
+                    share * fine.rgba[(size_t{y} * fine.width + x) * 4 + k];
+    return picture;
+}
+
+/// `samples` a pixel, by the box filter. Devices do one large picture sooner than many samples of a small one: up to 256 x 256, each pixel becomes a
+/// square of as many.
 Picture renderPath(const LoadedScene& scene, uint32_t samples, uint32_t strategy = MINIRT_LIGHT_SAMPLING_MIS, uint32_t seed = 0) {
+    minirt_scene_desc defaults;
+    minirt_get_scene_desc(scene.get(), &defaults);
+    uint32_t side = 1;
+    while (4 * side * side <= samples && 2 * side * defaults.width <= 256) side *= 2;
     minirt_render_desc desc = {};
-    desc.samples = samples;
+    desc.width = side * defaults.width, desc.height = side * defaults.height;
+    desc.samples = samples / (side * side);
     desc.light_sampling = strategy;
     desc.seed = seed;
-    return scene.render(desc);
+    return shrink(scene.render(desc), side);
 }
 
 dvec3 meanOf(const Picture& picture) {

@@ -482,6 +482,26 @@ TEST_CASE("what fills an object is read as coefficients and black and white are 
     CHECK(scene.objects[0].priority == 3);
 }
 
+TEST_CASE("an opaque material that tells of its inside is warned of, key by key") {
+    const auto warnings = [](const std::string& transmission) {
+        Loader loader;
+        loader.load(R"({"materials":{"milk":{"model":"pbr","roughness":0,"transmission":)" + transmission +
+                    R"(,"attenuationColor":[1,0.5,0],"attenuationDistance":2,
+"inscatter":0.25,"glass":"water"}},"background":{"color":[1,1,1]},"objects":[{"sphere":{},"material":"milk"}]})");
+        for (std::string& warning : loader.diagnostics.warnings) warning = loader.strip(warning);
+        return loader.diagnostics.warnings;
+    };
+    CHECK(warnings("0.1").empty());
+    const std::vector<std::string> opaque = warnings("0");
+    REQUIRE(opaque.size() == 4);
+    CHECK(
+        opaque[0] ==
+        "s.json:1:87: warning: the material 'milk' is opaque: 'attenuationColor' tells of an inside that it does not have; give "
+        "it 'transmission' or leave the key out");
+    const char* keys[] = {"'attenuationColor'", "'attenuationDistance'", "'inscatter'", "'glass'"};
+    for (size_t i = 0; i < 4; ++i) CHECK(opaque[i].find(keys[i]) != std::string::npos);
+}
+
 TEST_CASE("shadows are clear by the model unless the scene says which") {
     const auto clear = [](const std::string& render) {
         Loader loader;

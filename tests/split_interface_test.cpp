@@ -84,7 +84,7 @@ void addIceLids(std::vector<Face>& faces, Medium below) {
 
 std::vector<Face> splitScene(bool withIce) {
     std::vector<Face> faces = tumbler(true);
-    addBand(faces, kInner, kLevel, 0, kLevel, kAir, kWhisky);  // within the ice it parts nothing: see `inIce`
+    addBand(faces, kInner, kLevel, 0, kLevel, kAir, kWhisky);  // within the ice it parts nothing: see `sidesWithIce`
     if (!withIce) return faces;
     addIceSides(faces, kIceLow, kLevel, kWhisky);
     addIceSides(faces, kLevel, kIceHigh, kAir);
@@ -141,16 +141,17 @@ std::vector<dvec3> nestedPicture(const GpuContext& gpu, double lap, const std::s
     return pixels;
 }
 
-/// The surface of the whisky, where the ice is.
-bool inIce(const Face& face, const dvec3& p) {
-    return face.front == kAir && face.back == kWhisky && std::abs(p.x) < kIceHalf && std::abs(p.z) < kIceHalf;
+/// The surface of the whisky parts nothing where the ice is.
+Sides sidesWithIce(const Face& face, const dvec3& p) {
+    const bool inIce = face.front == kAir && face.back == kWhisky && std::abs(p.x) < kIceHalf && std::abs(p.z) < kIceHalf;
+    return inIce ? Sides{kIce, kIce} : Sides{face.front, face.back};
 }
 
 std::vector<dvec3> splitPicture(bool withIce) {
     std::vector<SplitMedium> media;
     for (int i = 0; i < 4; ++i) media.push_back({kIor[i], kSigma[i]});
     SplitScene scene(splitScene(withIce), media, surroundings,
-                     withIce ? inIce : std::function<bool(const Face&, const dvec3&)>());
+                     withIce ? sidesWithIce : std::function<Sides(const Face&, const dvec3&)>());
     std::vector<dvec3> pixels;
     for (uint32_t y = 0; y < kView.size; ++y)
         for (uint32_t x = 0; x < kView.size; ++x)

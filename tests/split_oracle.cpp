@@ -27,11 +27,11 @@ double sizeOf(const std::vector<SplitFace>& faces) {
 
 SplitScene::SplitScene(const std::vector<SplitFace>& faces, std::vector<SplitMedium> media,
                        std::function<dvec3(const dvec3&, const dvec3&)> surroundings,
-                       std::function<bool(const SplitFace&, const dvec3&)> hidden)
+                       std::function<Sides(const SplitFace&, const dvec3&)> sidesAt)
     : faces_(faces),
       media_(std::move(media)),
       surroundings_(std::move(surroundings)),
-      hidden_(std::move(hidden)),
+      sidesAt_(std::move(sidesAt)),
       scene_(meshOf(faces)),
       nearest_(2e-6 * sizeOf(faces)) {}
 
@@ -47,10 +47,11 @@ dvec3 SplitScene::follow(dvec3 p, const dvec3& d, const dvec3& throughput, int m
     p += hit.t * d;
     const dvec3 left = throughput * glm::exp(-media_[medium].sigma * hit.t);
     const SplitFace& face = faces_[hit.primitive];
-    if (hidden_ && hidden_(face, p)) return follow(p, d, left, medium, depth);
+    const Sides sides = sidesAt_ ? sidesAt_(face, p) : Sides{face.front, face.back};
+    if (sides.front == sides.back) return follow(p, d, left, medium, depth);
     const dvec3 out = glm::normalize(glm::cross(face.b - face.a, face.c - face.a));
     const bool fromFront = glm::dot(d, out) < 0;
-    const int from = fromFront ? face.front : face.back, to = fromFront ? face.back : face.front;
+    const int from = fromFront ? sides.front : sides.back, to = fromFront ? sides.back : sides.front;
     misfits_ += medium == from ? 0 : 1;
     if (depth == maxDepth_) return dvec3(0);
     const dvec3 n = fromFront ? out : -out;

@@ -13,6 +13,11 @@ struct SplitFace {
     int back = 0;
 };
 
+/// The media in front of a point on a face and behind it. Where they are the same, the face parts nothing there.
+struct Sides {
+    int front = 0, back = 0;
+};
+
 struct SplitMedium {
     double ior = 1;
     glm::dvec3 sigma{0};  // 1/m
@@ -20,11 +25,11 @@ struct SplitMedium {
 
 class SplitScene {
 public:
-    /// `surroundings`: radiance that a ray from a point in a direction finds where it meets no face. `hidden`: says of a point on a face that it
-    /// parts nothing there; may be empty. Positions are rounded to float, as in a blob.
+    /// `surroundings`: radiance that a ray from a point in a direction finds where it meets no face. `sidesAt`: overrules
+    /// what a face says where the media change within it; may be empty. Positions are rounded to float, as in a blob.
     SplitScene(const std::vector<SplitFace>& faces, std::vector<SplitMedium> media,
                std::function<glm::dvec3(const glm::dvec3&, const glm::dvec3&)> surroundings,
-               std::function<bool(const SplitFace&, const glm::dvec3&)> hidden = {});
+               std::function<Sides(const SplitFace&, const glm::dvec3&)> sidesAt = {});
 
     /// What a camera at `p` in the surrounding medium sees: Whitted's tree down to `maxDepth`, rays under a throughput of 1/512 left out.
     glm::dvec3 radiance(const glm::dvec3& p, const glm::dvec3& d, int maxDepth);
@@ -38,7 +43,7 @@ private:
     std::vector<SplitFace> faces_;
     std::vector<SplitMedium> media_;
     std::function<glm::dvec3(const glm::dvec3&, const glm::dvec3&)> surroundings_;
-    std::function<bool(const SplitFace&, const glm::dvec3&)> hidden_;
+    std::function<Sides(const SplitFace&, const glm::dvec3&)> sidesAt_;
     oracle::DoubleScene scene_;
     double nearest_;  // shorter ways are the surface that the ray leaves
     int maxDepth_ = 0;

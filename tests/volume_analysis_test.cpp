@@ -196,6 +196,20 @@ TEST_CASE("a mesh that is not closed is an error with the number of open edges a
     CHECK(builder.error() == "");
 }
 
+TEST_CASE("of an open mesh with a material of its .mtl the advice is one that can be followed there") {
+    Builder builder;
+    ClosedMesh open = box();
+    open.faces.resize(10);
+    builder.mesh("open.obj", open, {}, kNone);
+    builder.scene.meshes[0].materials = {kGlass};
+    for (Face& face : builder.scene.meshes[0].faces) face.material = 0;
+    CHECK(contains(builder.error(),
+                   "; close the mesh, or make its material a thin sheet: 'Ni 1' in the .mtl file, or name one with "
+                   "\"thin\": true in the scene file"));
+    builder.scene.meshes[0].materials = {kThin};
+    CHECK(builder.error() == "");
+}
+
 TEST_CASE("a rectangle of glass is open") {
     Builder builder;
     builder.rectangle("pane", {}, kGlass);
@@ -492,6 +506,57 @@ TEST_CASE("faces on each other, and overlaps that are too thin") {
     }
 }
 
+TEST_CASE("glass that stands exactly on something opaque is warned of, with what to do") {
+    Builder builder;
+    const Rectangle table{{-5, 0, -5}, {0, 0, 20}, {20, 0, 0}};
+    const std::string warning = "faces of glass and table lie on each other";
+    const auto stand = [&](double height, const Rectangle& on) {
+        builder.rectangle("table", on, kWhite);
+        builder.mesh("glass", box(), at({0, height, 0}));
+        return builder.volumes().content;
+    };
+    SUBCASE("on it") {
+        CHECK(stand(0, table) == "table in glass");  // rays keep track: what lies on the surface may be met first
+        CHECK(all(builder.diagnostics) ==
+              "s.json:2:1: warning: faces of glass and table lie on each other, or nearer than rounding can tell: a ray may pass "
+              "over one of them; move one so that they are more than 8.8e-06 m apart, or overlap by more\n");
+    }
+    SUBCASE("on its back") {
+        stand(0, {table.origin, table.v, table.u});
+        CHECK(count(builder.diagnostics, warning) == 1);
+    }
+    SUBCASE("nearly on it") {
+        stand(2e-6, table);
+        CHECK(count(builder.diagnostics, warning) == 1);
+    }
+    SUBCASE("a hair over it") {
+        CHECK(stand(1e-5, table) == "");
+        CHECK(all(builder.diagnostics) == "");
+    }
+    SUBCASE("a hair in it") {
+        CHECK(stand(-1e-5, table) == "table in glass");
+        CHECK(all(builder.diagnostics) == "");
+    }
+    SUBCASE("next to it") {
+        stand(0, {{2, 0, 0}, {1, 0, 0}, {0, 0, 1}});
+        CHECK(all(builder.diagnostics) == "");
+    }
+    SUBCASE("a label of thin glass") {
+        builder.rectangle("label", {{0.2, 0.2, 1}, {0.5, 0, 0}, {0, 0.5, 0}}, kThin);
+        stand(1, table);
+        CHECK(count(builder.diagnostics, "faces of glass and label lie on each other") == 0);  // the glass is elsewhere
+        builder.scene.objects[2].instances[0].translate = {};
+        builder.volumes();
+        CHECK(count(builder.diagnostics, "faces of glass and label lie on each other") == 1);
+    }
+    SUBCASE("an opaque ball in a ball of glass") {
+        builder.sphere("core", {0, 0, 0}, 1, kWhite);
+        builder.sphere("shell", {0, 0, 0}, 1);
+        builder.volumes();
+        CHECK(count(builder.diagnostics, "faces of shell and core lie on each other") == 1);
+    }
+}
+
 TEST_CASE("priorities win over sizes, and go before them in the order") {
     Builder builder;
     builder.sphere("big", {0, 0, 0}, 2).priority = 2;
@@ -530,6 +595,57 @@ TEST_CASE("many pairs of a kind are warned of a few times, with a count of the r
     builder.volumes();
     CHECK(count(builder.diagnostics, "it is a guess") == 8);
     CHECK(count(builder.diagnostics, "4 more pairs of volumes overlap and are of like size") == 1);
+}
+
+TEST_CASE("many things on glass are warned of a few times, with a count of the rest") {
+    Builder builder;
+    builder.mesh("plate", box({20, 1, 1}));
+    for (int i = 0; i < 11; ++i) builder.mesh("cube", box(), at({1.5 * i, 1, 0}), kWhite);
+    builder.volumes();
+    CHECK(count(builder.diagnostics, "faces of plate and cube lie on each other") == 8);
+    CHECK(count(builder.diagnostics, "3 more pairs of bodies have faces that lie on each other") == 1);
+}
+
+TEST_CASE("the boxes that are near each other are those that comparing each with each finds") {
+    test::Random random(11);
+    for (const double reach : {0.0, 0.05}) {
+        std::vector<Aabb> boxes;
+        for (int i = 0; i < 300; ++i) {
+            const glm::vec3 center(random.inCube(1)), half = 0.4f * glm::abs(glm::vec3(random.inCube(1)));
+            boxes.push_back(i % 50 == 7 ? Aabb{} : Aabb{center - half, center + half});
+        }
+        const auto wanted = [](uint32_t i, uint32_t k) { return (i + k) % 3 != 0; };
+        std::vector<IndexPair> expected;
+        for (uint32_t i = 0; i < boxes.size(); ++i)
+            for (uint32_t k = i + 1; k < boxes.size(); ++k)
+                if (wanted(i, k) && areNear(boxes[i], boxes[k], reach)) expected.emplace_back(i, k);
+        CHECK(expected.size() > 100);
+        CHECK(nearPairs(boxes, reach, wanted) == expected);
+    }
+}
+
+TEST_CASE("what is found of volumes does not depend on the number of threads") {
+    Builder builder;
+    test::Random random(5);
+    for (int i = 0; i < 60; ++i) {
+        const std::string number = std::to_string(i);
+        const Transform placement = at(random.inCube(1.5), glm::dvec3(0.2 + 0.01 * (i % 7)), 180.0 * random.inCube(1));
+        builder.mesh("mesh" + number, i % 2 ? box() : test::ball(2), placement, i % 5 ? kGlass : kWhite);
+        builder.sphere("sphere" + number, random.inCube(1.5), 0.2, i % 3 ? kGlass : kWhite);
+    }
+    builder.mesh("fine", test::ball(5), at({}, glm::dvec3(0.8)));  // large enough for threads of its own
+    builder.mesh("like", test::ball(5), at({}, glm::dvec3(0.8)));
+    const auto found = [&](unsigned threads) {
+        builder.diagnostics = {};
+        builder.geometry = flatten(builder.scene, builder.diagnostics);
+        const Volumes volumes = analyseVolumes(builder.scene, builder.geometry, builder.diagnostics, threads);
+        return builder.displacements(volumes) + builder.order(volumes) + volumes.overlap + volumes.content + volumes.selfOverlap +
+               std::to_string(volumes.capacity) + all(builder.diagnostics);
+    };
+    const std::string one = found(1);
+    CHECK(contains(one, "lie on each other"));
+    CHECK(contains(one, "it is a guess"));
+    for (const unsigned threads : {2u, 5u, 0u}) CHECK(found(threads) == one);
 }
 
 TEST_CASE("thick glass: a cavity is no overlap, and what is in the cavity is not in the glass") {

@@ -2,7 +2,10 @@
 
 #include "aquarium.hpp"
 #include "board.hpp"
+#include "cornell.hpp"
+#include "decanter.hpp"
 #include "fish.hpp"
+#include "foliage.hpp"
 #include "gems.hpp"
 #include "ice.hpp"
 #include "knot.hpp"
@@ -59,6 +62,32 @@ void writeAquarium(const std::filesystem::path& folder) {
     writeTextured(fish(Species::butterflyfish, 0.2), fishSkin(Species::butterflyfish, 512), scales, folder, "butterflyfish");
 }
 
+void writeCornellBox(const std::filesystem::path& folder) {
+    writeObj(cornellRoom(), folder / "cornell_room.obj");
+    writeObj(cornellLeft(), folder / "cornell_left.obj");
+    writeObj(cornellRight(), folder / "cornell_right.obj");
+    writeObj(cornellShortBlock(), folder / "cornell_short.obj");
+    writeObj(cornellTallBlock(), folder / "cornell_tall.obj");
+}
+
+void writeFoliage(const std::filesystem::path& folder) {
+    writeObj(shrubStems(), folder / "shrub_stems.obj");
+    writeObj(shrubLeaves(), folder / "shrub_leaves.obj");
+    writeObj(meadow(7, 9000), folder / "meadow.obj");
+    writePng(leafCard(512), folder / "leaf.png");
+    writePng(grassCard(512), folder / "grass.png");
+}
+
+void writeProduct(const std::filesystem::path& folder) {
+    writeObj(decanter(), folder / "decanter.obj");
+    writeObj(decanterFilling(), folder / "liqueur.obj");
+    writeObj(decanterStopper(), folder / "stopper.obj");
+    writeObj(sweep(3, 2, 1, 2.5), folder / "sweep.obj");
+    writeLinearPng(brushedNormals(256, 1024), folder / "brushed_normals.png");
+    writeLinearPng(brushedSurface(256, 256), folder / "brushed_surface.png");
+    writeHdr(softBoxes(1024, 512), folder / "soft_boxes.hdr");
+}
+
 }  // namespace
 
 void generate(const std::filesystem::path& folder) {
@@ -66,6 +95,9 @@ void generate(const std::filesystem::path& folder) {
     writeStones(folder);
     writeVessels(folder);
     writeAquarium(folder);
+    writeCornellBox(folder);
+    writeFoliage(folder);
+    writeProduct(folder);
     writeObj(torusKnot(TorusKnot{}), folder / "knot.obj");
     writeObj(icosphere(4), folder / "sphere.obj");
     writeHdr(eveningSky(1024, 512), folder / "sky.hdr");

@@ -12,6 +12,7 @@ struct Picture {
     int width;
     int height;
     std::vector<glm::vec3> pixels;
+    std::vector<float> alpha;  // empty: opaque
 };
 
 /// `colorAt(u, v)` at the centre of every pixel; u to the right, v down, both in [0,1].
@@ -27,6 +28,9 @@ Picture noonSky(int width, int height);
 /// Equirectangular photographer's studio: dark, soft boxes at the sides, small lamps overhead, a cool backdrop at -Z.
 Picture studio(int width, int height);
 
+/// Equirectangular room for pictures of products: grey, with large soft boxes to the left, to the right and overhead.
+Picture softBoxes(int width, int height);
+
 /// Equirectangular bar by night, out of focus.
 Picture bar(int width, int height);
 
@@ -39,8 +43,9 @@ Picture sandGrains(int width, int height);
 /// Cobalt bands and petals on white, for the vase: repeats in u, v = 0 at the top.
 Picture porcelain(int width, int height);
 
-/// Both throw std::runtime_error when the file cannot be written.
+/// All throw std::runtime_error when the file cannot be written.
 void writeHdr(const Picture& picture, const std::filesystem::path& path);
-void writePng(const Picture& picture, const std::filesystem::path& path);  // sRGB, clamped
+void writePng(const Picture& picture, const std::filesystem::path& path);        // sRGB, clamped
+void writeLinearPng(const Picture& picture, const std::filesystem::path& path);  // the numbers as they are, clamped: no colours
 
 }  // namespace samples

@@ -92,6 +92,17 @@ Picture studio(int width, int height) {
     return panorama(width, height, [&](const glm::dvec3& d) { return studioRoom(d) + sum(boxes, d) + sum(lamps, d); });
 }
 
+Picture softBoxes(int width, int height) {
+    const std::vector<SoftBox> boxes{{toward(-72, 28), 0.55, 0.75, {7.5, 7.1, 6.5}, 0.05},     // key on the left
+                                     {toward(84, 24), 0.16, 0.85, {6.0, 6.6, 7.6}, 0.03},      // strip on the right
+                                     {toward(10, 78), 0.60, 0.38, {5.5, 5.5, 5.6}, 0.06},      // overhead
+                                     {toward(170, 30), 0.30, 0.30, {1.2, 1.25, 1.35}, 0.05}};  // behind the camera
+    return panorama(width, height, [&](const glm::dvec3& d) {
+        const double wall = 0.05 + 0.05 * glm::smoothstep(-0.3, 0.6, d.y);
+        return glm::dvec3(wall) + sum(boxes, d);
+    });
+}
+
 Picture bar(int width, int height) {
     const std::vector<SoftBox> boxes{{toward(-84, 24), 0.13, 0.5, {4.2, 4.0, 3.8}, 0.04},  // window on the left
                                      {toward(76, 20), 0.06, 0.55, {5.2, 3.6, 2.0}, 0.03},  // tube on the right

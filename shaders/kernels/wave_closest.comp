@@ -12,5 +12,10 @@ void main() {
         return;
     }
     saveRay(slot, ray);
-    pushPath(!isDone(ray) ? raysOf(frame.sampling.w + 1u) : missed ? MINIRT_QUEUE_MISSES : MINIRT_QUEUE_HITS, slot);
+    if (!isDone(ray))
+        pushPath(raysOf(frame.sampling.w + 1u), slot);
+    else if (missed)
+        pushPath(MINIRT_QUEUE_MISSES, slot);
+    else
+        pushPath(MINIRT_QUEUE_HITS, slot);
 }

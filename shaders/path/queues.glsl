@@ -9,11 +9,20 @@ uint shadowsOf(uint round) { return (round & 1u) == 0u ? MINIRT_QUEUE_EVEN_SHADO
 
 uint queueStart(uint queue) { return MINIRT_QUEUE_COUNT * MINIRT_QUEUE_HEADER_WORDS + queue * frame.size.z; }
 
+/// All invocations that get here together push into the same queue: one of them makes room for all.
 void pushPath(uint queue, uint slot) {
     uint header = queue * MINIRT_QUEUE_HEADER_WORDS;
-    uint place = atomicAdd(queueWords[header + 3u], 1u);
-    if (place % gl_WorkGroupSize.x == 0u) atomicAdd(queueWords[header], 1u);
-    queueWords[queueStart(queue) + place] = slot;
+    uvec4 together = subgroupBallot(true);
+    uint count = subgroupBallotBitCount(together);
+    uint first = 0u;
+    if (subgroupElect()) {
+        first = atomicAdd(queueWords[header + 3u], count);
+        uint size = gl_WorkGroupSize.x;
+        uint groups = (first + count + size - 1u) / size - (first + size - 1u) / size;
+        if (groups > 0u) atomicAdd(queueWords[header], groups);
+    }
+    first = subgroupBroadcastFirst(first);
+    queueWords[queueStart(queue) + first + subgroupBallotExclusiveBitCount(together)] = slot;
 }
 
 /// The path of this invocation, or MINIRT_NONE.
@@ -60,5 +69,8 @@ void queuePath(uint slot, Path path, Traversal ray, uint shadows, uvec2 rays) {
     rayCounts[taskOf(slot).filmIndex] += rays;
     if (path.phase == PHASE_DONE) return;
     saveRay(slot, ray);
-    pushPath(path.phase == PHASE_SHADOW ? shadows : raysOf(frame.sampling.w + 1u), slot);
+    if (path.phase == PHASE_SHADOW)
+        pushPath(shadows, slot);
+    else
+        pushPath(raysOf(frame.sampling.w + 1u), slot);
 }

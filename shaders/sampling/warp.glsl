@@ -83,9 +83,10 @@ struct Basis {
     vec3 n;
 };
 
-/// A right-handed basis around the unit vector n (Duff et al. 2017, Building an Orthonormal Basis, Revisited).
+/// A right-handed basis around the unit vector n (Duff et al. 2017, Building an Orthonormal Basis, Revisited). It turns over
+/// where no surface of a box lies: rounding of a z that should be 0 must not choose between two bases.
 Basis basisAround(vec3 n) {
-    real side = n.z < real(0) ? real(-1) : real(1);
+    real side = n.z < real(-0.37) ? real(-1) : real(1);
     real a = real(-1) / (side + n.z);
     real b = n.x * n.y * a;
     Basis basis;
