@@ -1856,15 +1856,13 @@ inline minirt_result createPipelines(minirt_scene* s, const minirt_kernel* const
     return r;
 }
 
-inline minirt_result activateIntegrator(minirt_scene* s, uint32_t integrator) {
-    if (s->activeIntegrator == integrator) return MINIRT_OK;
+/* Pipelines of kernels that share one descriptor set; NULL where there is none. */
+inline minirt_result activateKernels(minirt_scene* s, const minirt_kernel* const* kernels) {
     destroyPipelines(s);
     const double start = nowMs();
-    const minirt_kernel* kernels[kMostKernels];
     s->activeBindings = 0;
     s->activeWaits = 0;
     for (uint32_t i = 0; i < kMostKernels; ++i) {
-        kernels[i] = findKernel(s, integratorKernel(integrator, i));
         if (!kernels[i]) continue;
         s->activeBindings |= kernels[i]->bindings;
         s->activeWaits = larger(s->activeWaits, kernels[i]->waits);
@@ -1872,13 +1870,18 @@ inline minirt_result activateIntegrator(minirt_scene* s, uint32_t integrator) {
     minirt_result r = fillAbsentBuffers(s, s->activeBindings);
     if (!r) r = createLayouts(s, s->activeBindings);
     if (!r) r = createPipelines(s, kernels);
-    if (r) {
-        destroyPipelines(s);
-        return r;
-    }
-    s->activeIntegrator = integrator;
+    if (r) destroyPipelines(s);
     s->blocksPerMs = 0;
     s->pipelineMs = nowMs() - start;
+    return r;
+}
+
+inline minirt_result activateIntegrator(minirt_scene* s, uint32_t integrator) {
+    if (s->activeIntegrator == integrator) return MINIRT_OK;
+    const minirt_kernel* kernels[kMostKernels];
+    for (uint32_t i = 0; i < kMostKernels; ++i) kernels[i] = findKernel(s, integratorKernel(integrator, i));
+    if (minirt_result r = activateKernels(s, kernels)) return r;
+    s->activeIntegrator = integrator;
     return MINIRT_OK;
 }
 

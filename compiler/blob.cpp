@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <glm/gtc/packing.hpp>
-#include <map>
 #include <nlohmann/json.hpp>
 
+#include "image_plan.hpp"
 #include "light_table.hpp"
 #include "spectrum.hpp"
 
@@ -16,8 +15,6 @@ namespace {
 /// Rays whose throughput falls below this in every channel end: less than half a step of an 8-bit picture.
 constexpr float kThroughputCutoff = 1.0f / 512.0f;
 
-constexpr float kLargestHalf = 65504.0f;
-
 minirt_vec4 vec4(const glm::vec3& v, float w = 0) {
     return {v.x, v.y, v.z, w};
 }
@@ -26,75 +23,6 @@ float asFloat(uint32_t bits) {
     float value;
     std::memcpy(&value, &bits, sizeof value);
     return value;
-}
-
-/// Which images the blob holds, and where: images that no included effect reads stay out. One that wraps in several ways is several images
-/// over the same texels.
-class ImagePlan {
-public:
-    struct Place {
-        uint32_t image;  // of the scene
-        uint32_t flags;  // MINIRT_IMAGE_
-    };
-
-    ImagePlan(const Scene& scene, const EffectSet& effects) : effects_(effects) {
-        if (effects.has(Effect::backgroundImage)) background_ = add(scene.background.image, 0);
-        for (const Material& material : scene.materials) {
-            add(diffuseOf(material), flagsOf(material));
-            add(surfaceOf(material), flagsOf(material));
-            add(normalOf(material), flagsOf(material));
-            add(emissionOf(material), flagsOf(material));
-        }
-    }
-
-    const std::vector<Place>& places() const { return places_; }
-    /// Indices into places(), or kNone.
-    uint32_t background() const { return background_; }
-    uint32_t diffuse(const Material& m) const { return find(diffuseOf(m), flagsOf(m)); }
-    uint32_t surface(const Material& m) const { return find(surfaceOf(m), flagsOf(m)); }
-    uint32_t normal(const Material& m) const { return find(normalOf(m), flagsOf(m)); }
-    uint32_t emission(const Material& m) const { return find(emissionOf(m), flagsOf(m)); }
-
-private:
-    static uint32_t flagsOf(const Material& m) {
-        return m.wrap == Wrap::repeat   ? MINIRT_IMAGE_REPEAT_V
-               : m.wrap == Wrap::mirror ? MINIRT_IMAGE_MIRROR_U | MINIRT_IMAGE_MIRROR_V
-                                        : MINIRT_IMAGE_CLAMP_U;
-    }
-    uint32_t diffuseOf(const Material& m) const { return reads({Effect::textures, Effect::alpha}) ? m.diffuseTexture : kNone; }
-    uint32_t surfaceOf(const Material& m) const { return reads({Effect::surfaceMaps}) ? m.surfaceTexture : kNone; }
-    uint32_t normalOf(const Material& m) const { return reads({Effect::normalMaps}) ? m.normalTexture : kNone; }
-    uint32_t emissionOf(const Material& m) const { return reads({Effect::emissionMaps}) ? m.emissionTexture : kNone; }
-    bool reads(std::initializer_list<Effect> any) const {
-        return std::any_of(any.begin(), any.end(), [&](Effect effect) { return effects_.has(effect); });
-    }
-
-    uint32_t find(uint32_t image, uint32_t flags) const {
-        const auto same = [&](const Place& place) { return place.image == image && place.flags == flags; };
-        const auto found = std::find_if(places_.begin(), places_.end(), same);
-        return found == places_.end() ? kNone : static_cast<uint32_t>(found - places_.begin());
-    }
-    uint32_t add(uint32_t image, uint32_t flags) {
-        if (image != kNone && find(image, flags) == kNone) places_.push_back({image, flags});
-        return find(image, flags);
-    }
-
-    const EffectSet& effects_;
-    std::vector<Place> places_;
-    uint32_t background_ = kNone;
-};
-
-/// Appends the image's texels as half floats; values beyond their range share a factor.
-minirt_image encodeImage(const Image& image, std::vector<uint16_t>& texels) {
-    float largest = 0;
-    for (const glm::vec4& texel : image.texels) largest = std::max({largest, texel.x, texel.y, texel.z});
-    const float scale = largest > kLargestHalf ? largest / kLargestHalf : 1.0f;
-    const auto first = static_cast<uint32_t>(texels.size() / 4);
-    texels.reserve(texels.size() + image.texels.size() * 4);
-    for (const glm::vec4& texel : image.texels) {
-        for (int k = 0; k < 4; ++k) texels.push_back(glm::packHalf1x16(k < 3 ? texel[k] / scale : texel[k]));
-    }
-    return {{image.width, image.height, first, 0}, {scale, 0, 0, 0}};
 }
 
 /// The part of `origin` that a pattern with cells of `scale` can see.
@@ -394,19 +322,6 @@ void addKernels(BlobWriter& writer, const std::vector<Kernel>& kernels) {
     writer.add("SPIRV", words);
 }
 
-void addImages(BlobWriter& writer, const Scene& scene, const ImagePlan& plan) {
-    std::vector<minirt_image> images;
-    std::vector<uint16_t> texels;
-    std::map<uint32_t, minirt_image> encoded;  // by the scene's image
-    for (const ImagePlan::Place& place : plan.places()) {
-        if (encoded.count(place.image) == 0) encoded[place.image] = encodeImage(scene.images[place.image], texels);
-        images.push_back(encoded[place.image]);
-        images.back().extent.w = place.flags;
-    }
-    writer.add("IMAGES", images);
-    writer.add("TEXELS", texels);
-}
-
 /// True where a kernel asks for texture coordinates.
 bool readsUvs(const EffectSet& effects) {
     return effects.has(Effect::textures) || effects.has(Effect::alpha) || effects.has(Effect::surfaceMaps) ||
@@ -453,7 +368,9 @@ std::vector<uint8_t> assembleBlob(const BakedScene& baked) {
     if (effects.has(Effect::spectral)) addSpectrum(writer);
     writer.add("EMITTERS", picks.emitters);
     writer.add("ENVIRON", picks.environment);
-    addImages(writer, scene, images);
+    const EncodedImages encoded = encodeImages(scene, images);
+    writer.add("IMAGES", encoded.images);
+    writer.add("TEXELS", encoded.texels);
     addKernels(writer, kernels);
     const std::string text = explain(baked);
     writer.add("EXPLAIN", text.data(), text.size());

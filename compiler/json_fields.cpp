@@ -126,13 +126,11 @@ const std::string& JsonObject::text(const std::string& key) const {
     return found.string;
 }
 
-std::string JsonObject::word(const std::string& key, const std::string& fallback, const std::vector<std::string>& now,
-                             const std::vector<std::string>& later) const {
+std::string JsonObject::word(const std::string& key, const std::string& fallback, const std::vector<std::string>& known) const {
     if (!has(key)) return fallback;
     const std::string& word = text(key);
-    if (contains(now, word)) return word;
-    if (contains(later, word)) fail(key, "'" + key + "': '" + word + "' is not in this version", "use " + join(now));
-    fail(key, "'" + key + "' is " + inQuotes(word), suggest(word, now));
+    if (!contains(known, word)) fail(key, "'" + key + "' is " + inQuotes(word), suggest(word, known));
+    return word;
 }
 
 std::filesystem::path JsonObject::file(const std::string& key) const {
@@ -143,11 +141,6 @@ std::filesystem::path JsonObject::file(const std::string& key) const {
     const bool folder = std::filesystem::is_directory(path, code);
     fail(key, folder ? inQuotes(name) + " is a folder" : "there is no file " + inQuotes(name),
          "paths are relative to the scene file's folder");
-}
-
-void JsonObject::warnIgnored(const std::string& key, const std::string& consequence) const {
-    if (file_.ignoredKeys.insert(key).second)
-        file_.diagnostics.warn(file_.at(*find(key)), "'" + key + "' has no effect in this version", consequence);
 }
 
 void JsonObject::fail(const std::string& key, const std::string& message, const std::string& hint) const {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <limits>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,6 @@ struct SceneFile {
     std::string path;
     std::filesystem::path folder;  // relative paths start here
     Diagnostics& diagnostics;
-    std::set<std::string> ignoredKeys;  // already warned about
 
     SourceLocation at(const JsonValue& value) const { return {path, value.line, value.column}; }
 };
@@ -50,14 +48,11 @@ public:
     glm::vec3 color(const std::string& key, const glm::vec3& fallback, const Limits& limits) const;
     /// A required string that is not empty.
     const std::string& text(const std::string& key) const;
-    /// One of `now`; `later` are known words which this version cannot do.
-    std::string word(const std::string& key, const std::string& fallback, const std::vector<std::string>& now,
-                     const std::vector<std::string>& later = {}) const;
+    /// One of `known`.
+    std::string word(const std::string& key, const std::string& fallback, const std::vector<std::string>& known) const;
     /// The path of an existing file, relative to the scene file.
     std::filesystem::path file(const std::string& key) const;
 
-    /// Warns, once per key and scene file, that `key` has no effect in this version.
-    void warnIgnored(const std::string& key, const std::string& consequence) const;
     /// Throws at the value of `key`, or at the object where it is absent.
     [[noreturn]] void fail(const std::string& key, const std::string& message, const std::string& hint) const;
 

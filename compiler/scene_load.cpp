@@ -249,7 +249,7 @@ void warnOfIdleKeys(const SceneFile& file, const Scene& scene, bool lightsWithSi
 
 Scene loadScene(const std::filesystem::path& path, Diagnostics& diagnostics) {
     const JsonValue json = parseJson(readTextFile(path), path.string());
-    SceneFile file{path.string(), path.parent_path(), diagnostics, {}};
+    SceneFile file{path.string(), path.parent_path(), diagnostics};
     const JsonObject root(file, json, "the scene",
                           {"camera", "background", "lights", "materials", "objects", "nesting", "render"});
     Scene scene;

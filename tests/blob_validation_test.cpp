@@ -379,7 +379,7 @@ TEST_CASE("kernels that are none are refused by name") {
         bake(dir, kMinimal),
         {
             {"offset outside", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_offset = b.size() & ~uint64_t{3}; }},
-            {"size outside", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size += 4096; }},
+            {"size outside", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size += 1u << 30; }},
             {"size that wraps", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size = ~uint64_t{3}; }},
             {"odd size", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size -= 2; }},
             {"no code", corrupt, "kernel 0", [](Blob& b) { kernelOf(b).spirv_size = 0; }},

@@ -126,7 +126,8 @@ RayQuery::RayQuery(minirt_context* context, const minirtc::Scene& scene, const m
     device_->context = context;
     device_->order = bvh.order;
     device_->require(minirt_load_memory(context, blob.data(), blob.size(), &device_->scene));
-    device_->require(detail::activateKernel(device_->scene, 0));
+    const minirt_kernel* kernels[detail::kMostKernels] = {device_->scene->kernels};
+    device_->require(detail::activateKernels(device_->scene, kernels));
 }
 
 RayQuery::~RayQuery() = default;

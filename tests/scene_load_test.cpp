@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "geometry.hpp"
 #include "scene.hpp"
 #include "support.hpp"
@@ -15,6 +17,11 @@ public:
         dir_.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         dir_.write("bad.obj", "v 0 0 x\n");
         dir_.write("notes.txt", "not an image");
+        std::string tga(18, '\0');  // one texel of 24 bits
+        tga[2] = 2, tga[12] = tga[14] = 1, tga[16] = 24;
+        dir_.write("a.tga", tga + "\x40\x80\xc0");
+        dir_.write("b.tga", tga + "\x80\x80\xff");
+        dir_.write("black.tga", tga + std::string(3, '\0'));
     }
 
     Scene load(const std::string& text) { return loadScene(dir_.write("s.json", text), diagnostics); }
@@ -260,6 +267,9 @@ TEST_CASE("bad objects are refused") {
         {object("{\"sphere\":{},\"material\":null}"), "s.json:2:25: only a mesh brings a material of its own; name a material"},
         {object("{\"rectangle\":{\"u\":[1,0,0],\"v\":[2,0,0]},\"material\":\"white\"}"),
          "s.json:2:14: the rectangle has no area; 'u' and 'v' must differ in direction"},
+        {"{\"materials\":{\"m\":{\"model\":\"pbr\",\"normalTexture\":\"a.tga\"}},\"objects\":[{\"sphere\":{},\"material\":\"m\"}]"
+         "}",
+         "s.json:1:95: a texture on a sphere is not in this version; use a plain colour or a mesh"},
         {object("{\"rectangle\":{\"u\":[1,0,0]},\"material\":\"white\"}"), "s.json:2:14: a rectangle has no 'v'; add it"},
         {object("{\"sphere\":{},\"material\":\"white\",\"priority\":0.5}"),
          "s.json:2:44: 'priority' is not whole; give a whole number"},
@@ -316,6 +326,142 @@ TEST_CASE("pbr materials become weights") {
     CHECK(glass.transmit == base);
     CHECK(glass.fresnel);
     CHECK(glass.ior == 0.75f);
+}
+
+TEST_CASE("pbr materials keep what only path tracers know") {
+    Loader loader;
+    const Scene scene = loader.load(R"({"render":{"integrator":"path"},"materials":{
+"plain":{"model":"pbr"},
+"all":{"model":"pbr","baseColor":"a.tga","metallic":0.75,"roughness":0.25,"metallicRoughnessTexture":"a.tga","normalTexture":"b.tga",
+  "normalScale":-2,"emissive":[1,2,3],"emissiveTexture":"a.tga","doubleSided":true,"alpha":0.5,"alphaMode":"mask","alphaCutoff":0.125,
+  "textureWrap":"clamp"},
+"frosted":{"model":"pbr","transmission":1,"roughness":0.3},
+"pane":{"model":"pbr","transmission":0.5,"roughness":0,"thin":true,"alphaMode":"blend","textureWrap":"mirror"},
+"phong":{"model":"phong"}},"objects":[{"sphere":{},"material":"plain"}],"background":{"image":"a.tga"}})");
+    const Material &plain = scene.materials[0], &all = scene.materials[1], &pane = scene.materials[3];
+    REQUIRE(plain.physical.has_value());
+    CHECK(plain.physical->roughness == 0.5f);
+    CHECK(plain.alphaMode == AlphaMode::opaque);
+    CHECK_FALSE(plain.doubleSided);
+    CHECK(plain.wrap == Wrap::repeat);
+    CHECK_FALSE(isTextured(plain));
+    CHECK(all.physical->baseColor == glm::vec3(1));
+    CHECK(all.physical->metallic == 0.75f);
+    CHECK(all.physical->roughness == 0.25f);
+    CHECK(isTextured(all));
+    REQUIRE(scene.images.size() == 3);  // a as colour and as data, b as data
+    CHECK(all.diffuseTexture == scene.background.image);
+    CHECK(all.emissionTexture == all.diffuseTexture);
+    CHECK(scene.images[all.diffuseTexture].space == ColorSpace::srgb);
+    CHECK(scene.images[all.surfaceTexture].space == ColorSpace::linear);
+    CHECK(scene.images[all.surfaceTexture].name == scene.images[all.diffuseTexture].name);
+    CHECK(scene.images[all.normalTexture].space == ColorSpace::linear);
+    CHECK(all.normalScale == -2);
+    CHECK(all.emission == glm::vec3(1, 2, 3));
+    CHECK(all.doubleSided);
+    CHECK(all.alpha == 0.5f);
+    CHECK(all.alphaMode == AlphaMode::mask);
+    CHECK(all.alphaCutoff == 0.125f);
+    CHECK(all.wrap == Wrap::clamp);
+    CHECK(scene.materials[2].physical->transmission == 1);
+    CHECK(scene.materials[2].physical->roughness == 0.3f);
+    CHECK(pane.alphaMode == AlphaMode::blend);
+    CHECK(pane.wrap == Wrap::mirror);
+    CHECK_FALSE(scene.materials[4].physical.has_value());
+}
+
+TEST_CASE("lights with size become objects that shine") {
+    Loader loader;
+    const Scene scene = loader.load("{" + kBall + R"(,"lights":[{"type":"rectangle","origin":[1,2,3],"u":[1,0,0],"v":[0,0,2],
+"radiance":[4,5,6]},{"type":"spot","position":[1,2,3],"direction":[0,-2,0],"intensity":[7,8,9],"innerConeAngle":20,"falloff":"none"},
+{"type":"sphere","center":[3,2,1],"radius":0.5},{"type":"rectangle","u":[1,0,0],"v":[0,1,0]}]})");
+    REQUIRE(scene.objects.size() == 4);
+    CHECK(scene.objects[0].name == "sphere 1");
+    CHECK(scene.objects[1].name == "rectangle light 1");
+    CHECK(scene.objects[2].name == "sphere light 1");
+    CHECK(scene.objects[3].name == "rectangle light 2");
+    CHECK(scene.objects[1].rectangle.origin == glm::dvec3(1, 2, 3));
+    CHECK(scene.objects[1].rectangle.v == glm::dvec3(0, 0, 2));
+    CHECK(scene.objects[1].location.line == 1);
+    CHECK(scene.objects[2].location.line == 3);
+    CHECK(scene.objects[2].sphere.center == glm::dvec3(3, 2, 1));
+    CHECK(scene.objects[2].sphere.radius == 0.5);
+    const Material &glow = scene.materials[scene.objects[1].material], &round = scene.materials[scene.objects[2].material];
+    CHECK(glow.emission == glm::vec3(4, 5, 6));
+    CHECK(glow.name == "rectangle light 1");
+    CHECK(glow.diffuse == glm::vec3(0));
+    REQUIRE(glow.physical.has_value());
+    CHECK(glow.physical->baseColor == glm::vec3(0));
+    CHECK(glow.ior == 1);
+    CHECK(round.emission == glm::vec3(1));
+    REQUIRE(scene.lights.size() == 1);
+    CHECK(scene.lights[0].type == LightType::spot);
+    CHECK(scene.lights[0].intensity == glm::vec3(7, 8, 9));
+    CHECK(scene.lights[0].innerCone == 20);
+    CHECK(scene.lights[0].outerCone == 45);
+    CHECK_FALSE(scene.lights[0].inverseSquare);
+    const SpotCosines cosines = spotCosines(scene.lights[0]);
+    CHECK(cosines.inner == doctest::Approx(std::cos(glm::radians(20.0))));
+    CHECK(cosines.outer == doctest::Approx(std::sqrt(0.5)));
+}
+
+TEST_CASE("a blob is for the integrators that can draw its scene unless the scene says which") {
+    const std::string rough = R"("materials":{"m":{"model":"pbr","metallic":1}},"objects":[{"sphere":{},"material":"m"}],)";
+    const std::string matte = R"("materials":{"m":{"model":"pbr"}},"objects":[{"sphere":{},"material":"m"}],)";
+    using List = std::vector<Integrator>;
+    const auto render = [](const std::string& scene, const std::string& keys) {
+        Loader loader;
+        return loader.load("{" + scene + R"("render":{)" + keys + "}}").render;
+    };
+    CHECK(render(matte, "").integrators == List{Integrator::whitted, Integrator::path, Integrator::wavefront});
+    CHECK(render(matte, "").integrator == Integrator::whitted);
+    CHECK(render(matte, R"("integrator":"wavefront")").integrator == Integrator::wavefront);
+    CHECK(render(matte, R"("integrator":"path")").integrators.size() == 3);
+    CHECK(render(rough, R"("integrator":"path")").integrators == List{Integrator::path, Integrator::wavefront});
+    CHECK(render(rough, R"("integrators":["wavefront","path","path"])").integrators ==
+          List{Integrator::path, Integrator::wavefront});
+    CHECK(render(rough, R"("integrators":["wavefront","path"])").integrator == Integrator::path);
+    CHECK(render(matte, R"("integrators":["whitted"])").integrators == List{Integrator::whitted});
+    CHECK_FALSE(render(matte, R"("integrators":["whitted"])").tracesPaths());
+    CHECK(render(matte, R"("filter":"gaussian")").filter == Filter::gaussian);
+    Loader loader;
+    CHECK(
+        loader.error("{" + rough + R"("render":{}})") ==
+        "s.json:1:45: the integrator 'whitted' cannot draw metallic with roughness over 0; set 'roughness' to 0 (its default is "
+        "0.5), or draw with \"integrator\": \"path\"");
+    CHECK(
+        loader.error("{" + rough + R"("render":{"integrator":"path","integrators":["path","whitted"]}})") ==
+        "s.json:1:45: the integrator 'whitted' cannot draw metallic with roughness over 0; set 'roughness' to 0 (its default is "
+        "0.5), or leave it out of 'integrators'");
+    CHECK(loader.error(R"({"materials":{"m":{"model":"pbr","metallic":1,"roughness":0,
+"baseColor":"a.tga"}},"objects":[{"sphere":{},"material":"m"}]})") ==
+          "s.json:2:13: the integrator 'whitted' cannot draw a texture on metal or glass; give 'baseColor' as [r, g, b], or draw "
+          "with \"integrator\": \"path\"");
+}
+
+TEST_CASE("what a scene asks for in vain gives a warning") {
+    const auto warnings = [](const std::string& more) {
+        Loader loader;
+        loader.load(with(more));
+        std::string all;
+        for (const std::string& warning : loader.diagnostics.warnings) all += loader.strip(warning) + "\n";
+        return all;
+    };
+    const std::string sun = R"("lights":[{"type":"directional","direction":[0,-1,0]}])";
+    const std::string lamp = R"("lights":[{"type":"sphere","center":[0,5,0]}])";
+    const std::string dark = "s.json: warning: nothing shines; add 'lights' or a 'background', or the picture stays black\n";
+    CHECK(warnings(sun).empty());
+    CHECK(warnings(R"("render":{"integrator":"path"})") == dark);
+    CHECK(warnings(R"("lights":[{"type":"point","position":[0,3,0],"intensity":[0,0,0]}])") == dark);
+    CHECK(warnings(R"("background":{"image":"black.tga"})") == dark);
+    CHECK(warnings(R"("background":{"image":"a.tga","strength":0})") == dark);
+    CHECK(warnings(R"("background":{"image":"a.tga"})").empty());
+    CHECK(warnings(lamp) ==
+          "s.json: warning: lights with size are seen by the integrator 'whitted', but light nothing; add a point, spot or "
+          "directional light or \"integrator\": \"path\"\n");
+    CHECK(warnings(lamp + R"(,"render":{"integrator":"path"},"camera":{"aperture":0.1})").empty());
+    CHECK(warnings(sun + R"(,"camera":{"aperture":0.1})") ==
+          "s.json: warning: 'aperture' has no effect with the integrator 'whitted'; add \"integrator\": \"path\"\n");
 }
 
 TEST_CASE("what fills an object is read as coefficients and black and white are exact") {

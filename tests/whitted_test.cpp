@@ -310,21 +310,25 @@ double srgb(uint8_t value) {
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-/// Linear texels and how a sampler reads them: centres at half-integers, u wraps, v wraps or clamps.
+/// How an image goes on beyond its rim.
+enum class Beyond { repeats, mirrors, clamps };
+
+/// Linear texels and how a sampler reads them: centres at half-integers.
 struct Texels {
     int width, height;
     std::vector<dvec3> values;
 
-    dvec3 at(int x, int y, bool wrapV) const {
-        const int column = ((x % width) + width) % width;
-        const int row = wrapV ? ((y % height) + height) % height : std::min(std::max(y, 0), height - 1);
-        return values[size_t(row) * width + column];
+    static int place(int i, int count, Beyond beyond) {
+        if (beyond == Beyond::clamps) return std::min(std::max(i, 0), count - 1);
+        const int turn = ((i % (2 * count)) + 2 * count) % (2 * count);
+        return beyond == Beyond::repeats ? turn % count : std::min(turn, 2 * count - 1 - turn);
     }
-    dvec3 bilinear(double u, double v, bool wrapV) const {
+    dvec3 at(int x, int y, Beyond u, Beyond v) const { return values[size_t(place(y, height, v)) * width + place(x, width, u)]; }
+    dvec3 bilinear(double u, double v, Beyond beyondU, Beyond beyondV) const {
         const double x = u * width - 0.5, y = v * height - 0.5, fx = x - std::floor(x), fy = y - std::floor(y);
         const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
-        return (at(x0, y0, wrapV) * (1 - fx) + at(x0 + 1, y0, wrapV) * fx) * (1 - fy) +
-               (at(x0, y0 + 1, wrapV) * (1 - fx) + at(x0 + 1, y0 + 1, wrapV) * fx) * fy;
+        const auto row = [&](int r) { return at(x0, r, beyondU, beyondV) * (1 - fx) + at(x0 + 1, r, beyondU, beyondV) * fx; };
+        return row(y0) * (1 - fy) + row(y0 + 1) * fy;
     }
 };
 
@@ -347,7 +351,7 @@ constexpr double kHalf = 0x1p-11;  // rounding of a texel to 16 bits
 
 }  // namespace
 
-TEST_CASE("a texture is bilinear and wraps and is decoded from sRGB") {
+TEST_CASE("a texture is bilinear and decoded from sRGB and goes on as its material says") {
     GpuContext gpu;
     if (!gpu) return;
     const Image image(5, 4);
@@ -357,18 +361,24 @@ TEST_CASE("a texture is bilinear and wraps and is decoded from sRGB") {
     dir.write("quad.obj",
               "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt -0.75 -1.5\nvt 1.5 -1.5\nvt 1.5 2\nvt -0.75 2\nf 1/1 2/2 3/3 4/4\n");
     const View view{{0, 0, 4}, {0, 0, 0}, 28, 64};
-    const Picture picture = renderScene(
-        gpu, dir,
-        "{" + view.text() + R"(,"lights":[{"type":"directional","direction":[0,0,-1],"irradiance":)" + json(dvec3(kPi)) +
-            R"(}],"materials":{"m":{"model":"pbr","baseColor":"image.tga"}},"objects":[{"mesh":"quad.obj","material":"m"}]})");
-    checkPixels(
-        picture, 2 * kHalf,
-        [&](uint32_t x, uint32_t y) {
-            const dvec3 d = view.direction(x, y), p = view.position - d * (4 / d.z);
-            const double u = -0.75 + (p.x + 1) / 2 * 2.25, v = -1.5 + (p.y + 1) / 2 * 3.5;
-            return image.texels.bilinear(u, 1 - v, true);
-        },
-        1e-2);
+    const std::vector<std::pair<std::string, Beyond>> ways = {
+        {"", Beyond::repeats}, {R"(,"textureWrap":"mirror")", Beyond::mirrors}, {R"(,"textureWrap":"clamp")", Beyond::clamps}};
+    for (const auto& [key, beyond] : ways) {
+        CAPTURE(key);
+        const Picture picture =
+            renderScene(gpu, dir,
+                        "{" + view.text() + R"(,"lights":[{"type":"directional","direction":[0,0,-1],"irradiance":)" +
+                            json(dvec3(kPi)) + R"(}],"materials":{"m":{"model":"pbr","baseColor":"image.tga")" + key +
+                            R"(}},"objects":[{"mesh":"quad.obj","material":"m"}]})");
+        checkPixels(
+            picture, 2 * kHalf,
+            [&, beyond = beyond](uint32_t x, uint32_t y) {
+                const dvec3 d = view.direction(x, y), p = view.position - d * (4 / d.z);
+                const double u = -0.75 + (p.x + 1) / 2 * 2.25, v = -1.5 + (p.y + 1) / 2 * 3.5;
+                return image.texels.bilinear(u, 1 - v, beyond, beyond);
+            },
+            1e-2);
+    }
 }
 
 TEST_CASE("the texture of a rectangle stands upright") {
@@ -387,7 +397,7 @@ TEST_CASE("the texture of a rectangle stands upright") {
         picture, 2 * kHalf,
         [&](uint32_t x, uint32_t y) {
             const dvec3 d = view.direction(x, y), p = view.position - d * (4 / d.z);
-            return image.texels.bilinear((p.x + 1) / 2, (1 - p.y) / 2, true);
+            return image.texels.bilinear((p.x + 1) / 2, (1 - p.y) / 2, Beyond::repeats, Beyond::repeats);
         },
         1e-2);
 }
@@ -421,7 +431,8 @@ TEST_CASE("the background shows each direction where it belongs") {
             const double u = std::atan2(direction.z, direction.x) / (2 * kPi) + 0.5 + rotation / 360;
             const double v = std::atan2(std::hypot(direction.x, direction.z), direction.y) / kPi;
             const bool pole = direction.x == 0 && direction.z == 0;
-            const dvec3 expected = 1.5 * image.texels.bilinear(pole ? 0.5 + rotation / 360 : u, v, false);
+            const dvec3 expected =
+                1.5 * image.texels.bilinear(pole ? 0.5 + rotation / 360 : u, v, Beyond::repeats, Beyond::clamps);
             for (int k = 0; k < 3; ++k) CHECK(got[k] == doctest::Approx(expected[k]).epsilon(2e-3));
         }
     }
@@ -573,6 +584,79 @@ TEST_CASE("an emitter shows its own radiance and nothing else does") {
                  rectangle({0, -20, 0}, {20, 0, 0}, {0, 40, 0}, "dark") + "]}");
     for (uint32_t y = 0; y < 32; ++y)
         for (uint32_t x = 0; x < 32; ++x) CHECK(picture.at(x, y) == (x < 16 ? glm::vec3(1.5f, 2.25f, 3.125f) : glm::vec3(0)));
+}
+
+TEST_CASE("an emitter shines to its front unless it is double-sided, and so do lights with size") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const dvec3 left(-20, -20, 0), middle(0, -20, 0), x(20, 0, 0), y(0, 40, 0);
+    const std::string emitter = R"({"model":"pbr","baseColor":[0,0,0],"emissive":[1,2,4])";
+    for (const double z : {5.0, -5.0}) {
+        CAPTURE(z);
+        const View view{{0, 0, z}, {0, 0, 0}, 60, 32};
+        const Picture picture = renderScene(gpu, "{" + view.text() + R"(,"materials":{"one":)" + emitter + R"(},"both":)" +
+                                                     emitter + R"(,"doubleSided":true}},"objects":[)" +
+                                                     rectangle(left, x, y, "one") + "," + rectangle(middle, x, y, "both") + "]}");
+        const glm::vec3 radiance(1, 2, 4);
+        bool right = true;
+        for (uint32_t row = 0; row < 32; ++row) {
+            for (uint32_t column = 0; column < 32; ++column) {
+                const bool isOne = (column < 16) == (z > 0);
+                right = right && picture.at(column, row) == (isOne && z < 0 ? glm::vec3(0) : radiance);
+            }
+        }
+        CHECK(right);
+    }
+    const View view{{0, 0, 8}, {0, 0, 0}, 60, 32};
+    const Picture picture =
+        renderScene(gpu, "{" + view.text() +
+                             R"(,"lights":[{"type":"rectangle","origin":[-3,-1,0],"u":[2,0,0],"v":[0,2,0],"radiance":[1,2,4]},)" +
+                             R"({"type":"rectangle","origin":[-1,-1,0],"u":[0,2,0],"v":[2,0,0]},)" +
+                             R"({"type":"sphere","center":[2,0,0],"radius":0.9,"radiance":[4,2,1]}],"materials":{"m":)" +
+                             kPlaster + R"(},"objects":[)" + sphere({0, 0, -50}, 1, "m") + "]}");
+    CHECK(picture.at(9, 16) == glm::vec3(1, 2, 4));
+    CHECK(picture.at(16, 16) == glm::vec3(0));
+    CHECK(picture.at(22, 16) == glm::vec3(4, 2, 1));
+}
+
+TEST_CASE("a spot light is full in its inner cone and dark outside of its outer one") {
+    GpuContext gpu;
+    if (!gpu) return;
+    const View view{{0, 6, 6}, {0, 0, 0}};
+    const dvec3 light(0.5, 4, 0.25), axis(0.2, -3, -0.4), intensity(10, 20, 30);
+    for (const auto& [inner, outer] : {std::pair{10.0, 25.0}, {0.0, 45.0}, {20.0, 20.0}, {0.0, 90.0}}) {
+        for (const bool inverseSquare : {true, false}) {
+            CAPTURE(inner);
+            CAPTURE(outer);
+            const std::string spot = R"({"type":"spot","position":)" + json(light) + R"(,"direction":)" + json(axis) +
+                                     R"(,"intensity":)" + json(intensity) + R"(,"innerConeAngle":)" + json(inner) +
+                                     R"(,"outerConeAngle":)" + json(outer) + (inverseSquare ? "}" : R"(,"falloff":"none"})");
+            const Picture picture = renderScene(gpu, "{" + view.text() + R"(,"lights":[)" + spot + R"(],"materials":{"m":)" +
+                                                         kPlaster + R"(},"objects":[)" + floorOf("m") + "]}");
+            const double from = std::cos(glm::radians(inner)), to = std::cos(glm::radians(outer));
+            checkPixels(
+                picture, 1e-4,
+                [&, inner = inner, outer = outer](uint32_t x, uint32_t y) -> std::optional<dvec3> {
+                    const dvec3 p = *meetFloor(view.position, view.direction(x, y)), away = light - p;
+                    const double d2 = glm::dot(away, away), cosine = glm::dot(-away, axis) / std::sqrt(d2) / glm::length(axis);
+                    if (inner == outer && std::abs(cosine - to) < 1e-4) return std::nullopt;
+                    const double t = inner == outer ? cosine > to : std::min(std::max((cosine - to) / (from - to), 0.0), 1.0);
+                    return kPlasterWeight * intensity * t * t * (away.y / std::sqrt(d2)) / (inverseSquare ? d2 : 1.0);
+                },
+                1e-1);
+        }
+    }
+    // Beside lights of the other kinds.
+    const std::string place = R"("position":)" + json(light) + R"(,"intensity":)" + json(intensity);
+    const auto lit = [&](const std::string& lights) {
+        return renderScene(gpu, "{" + view.text() + R"(,"lights":[)" + lights + R"(],"materials":{"m":)" + kPlaster +
+                                    R"(},"objects":[)" + floorOf("m") + "]}");
+    };
+    const std::string spot = R"({"type":"spot","direction":[0,-1,0],)" + place + "}", point = R"({"type":"point",)" + place + "}",
+                      sun = R"({"type":"directional","direction":[1,-2,0.5]})";
+    const Picture together = lit(spot + "," + point + "," + sun), a = lit(spot), b = lit(point), c = lit(sun);
+    checkPixels(together, 1e-6,
+                [&](uint32_t x, uint32_t y) { return dvec3(a.at(x, y)) + dvec3(b.at(x, y)) + dvec3(c.at(x, y)); });
 }
 
 namespace {

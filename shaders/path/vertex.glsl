@@ -53,15 +53,19 @@ Traversal noRay() {
     return none;
 }
 
+/// Where light at rough lobes counts from: on the curved surface that smooth normals describe, but for glass, which has a back.
+vec3 roughPoint(Encounter e, Bsdf bsdf) { return bsdf.frosted > 0.0 ? e.surface.p : e.surface.p + e.surface.lift; }
+
 /// Picks a light and starts the shadow ray towards it; the ray is empty where no light adds anything.
 Traversal startShadow(inout Path path, Encounter e, Bsdf bsdf, uvec2 pixel) {
-    LightRay light = pickLight(e.surface.p, pixel, path.bounces + 1u);
+    vec3 from = roughPoint(e, bsdf);
+    LightRay light = pickLight(from, pixel, path.bounces + 1u);
     path.unshadowed = light.pdf > 0.0 ? lightAt(path, e, bsdf, light) : vec3(0.0);
     if (importance(path.unshadowed) <= 0.0) return noRay();
     bool behind = dot(light.wi, e.ng) < 0.0;
-    vec3 origin = behind ? belowSurface(e) : offsetRayOrigin(e.surface.p + e.surface.lift, e.surface.pError, e.ng, e.ng);
+    vec3 origin = behind ? belowSurface(e) : offsetRayOrigin(from, e.surface.pError, e.ng, e.ng);
     const float rounding = 4.0 * MACHINE_EPSILON;
-    path.lightDistance = light.distance >= MINIRT_RAY_END ? MINIRT_RAY_END : (light.distance - dot(origin - e.surface.p, light.wi)) * (1.0 - rounding);
+    path.lightDistance = light.distance >= MINIRT_RAY_END ? MINIRT_RAY_END : (light.distance - dot(origin - from, light.wi)) * (1.0 - rounding);
     path.lightSized = light.sized;
     path.shadowVolumes = behind ? e.boundary.transmitted : e.boundary.reflected;
     path.phase = PHASE_SHADOW;
@@ -79,12 +83,12 @@ void depart(inout Path path, Encounter e, Bsdf bsdf, uvec2 pixel) {
     bool goesOn = straight || path.bounces < frame.sampling.z || (path.bounces == frame.sampling.z && next.pdf > 0.0);
     path.throughput *= goesOn ? next.weight : vec3(0.0);
     path.origin = next.behind ? belowSurface(e) : aboveSurface(e);
-    if (!next.behind && next.pdf > 0.0) path.origin = offsetRayOrigin(e.surface.p + e.surface.lift, e.surface.pError, e.ng, e.ng);
+    if (!next.behind && next.pdf > 0.0) path.origin = offsetRayOrigin(roughPoint(e, bsdf), e.surface.pError, e.ng, e.ng);
     path.direction = next.wi;
     path.volumes = next.behind ? e.boundary.transmitted : e.boundary.reflected;
     if (straight) return;
     path.pdf = next.pdf;
-    path.vertex = e.surface.p;
+    path.vertex = roughPoint(e, bsdf);
     path.bounces++;
     float survival = path.bounces > SURE_BOUNCES ? min(importance(path.throughput), 1.0) : 1.0;
     bool survives = draw(pixel, vertex, PAIR_SURVIVAL).x < survival;
