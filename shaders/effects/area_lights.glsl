@@ -27,13 +27,20 @@ float emitterPdf(uint slot, vec3 from, vec3 p, vec3 ng, vec3 direction) {
     return isSphere(row0) ? sphereShare(slot, radius) * sphereLightPdf(from, row0.xyz, radius) : triangle;
 }
 
+/// How far a ray may go without meeting the light itself: `error` bounds that of a point on it across its surface, which a ray that meets it under
+/// `cosine` feels that much more along its way.
+float shortOf(float distance, float error, float cosine) {
+    return max(distance - (2.0 * error + 8.0 * MACHINE_EPSILON * distance) / max(cosine, 1e-6), 0.0);
+}
+
 /// A way from p to a shining sphere.
 LightRay towardsSphere(uint slot, vec3 p, vec3 center, float radius, vec2 u) {
     SphereLightSample light = sampleSphereLight(p, center, radius, u);
     bool outside = length(center - p) > radius;
     vec3 shine = emission(fetchMaterial(materialOf(slot)), outside, vec2(0.0));
-    float rounding = errorGamma(8) * (maxComponent(abs(center)) + radius + light.distance);
-    return LightRay(light.wi, max(light.distance - rounding, 0.0), shine, sphereShare(slot, radius) * light.pdf, true);
+    float error = errorGamma(8) * (maxComponent(abs(center)) + radius + light.distance);
+    float cosine = abs(dot(p + light.distance * light.wi - center, light.wi)) / radius;
+    return LightRay(light.wi, shortOf(light.distance, error, cosine), shine, sphereShare(slot, radius) * light.pdf, true);
 }
 
 /// A way from p to a shining primitive. It ends before the primitive itself.
@@ -51,9 +58,9 @@ LightRay towardsPrimitive(uint slot, vec3 p, vec2 u) {
     float distance = length(away);
     vec3 wi = away / max(distance, 1e-30);
     float cosine = -dot(point.ng, wi);
-    vec3 end = offsetRayOrigin(point.p, point.pError, point.ng, -wi);
+    float end = shortOf(distance, dot(abs(point.ng), point.pError), abs(cosine));
     vec3 shine = emission(fetchMaterial(materialOf(slot)), cosine > 0.0, surfaceUv(floatBitsToUint(row2.w), b));
-    return LightRay(wi, max(dot(end - p, wi), 0.0), shine, directionPdf(emitterDensity(slot), distance, abs(cosine)), true);
+    return LightRay(wi, end, shine, directionPdf(emitterDensity(slot), distance, abs(cosine)), true);
 }
 
 #else

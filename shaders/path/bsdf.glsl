@@ -41,8 +41,9 @@ Bsdf bsdfAt(Encounter e, vec3 direction) {
     if (physical) m.transmit.rgb *= e.surface.diffuseTexture;
     b.smoothly = scatter(m, direction, e.ng, b.basis.n, e.eta);
     if (physical && (m.finish.y <= 0.0 || b.frosted > 0.0)) {  // what scatter() takes for a mirror is in the base; frosted glass has no smooth rays
-        b.smoothly.reflectWeight = vec3(0.0);
+        b.smoothly.reflectWeight = mirrorOf(b.base, finish.x, b.wo.z);
         b.smoothly.refractWeight = vec3(0.0);
+        b.opaque = maxComponent(b.smoothly.reflectWeight) > 0.0 ? 0.0 : b.opaque;
     }
     b.odds = vec4(importance(b.smoothly.reflectWeight), importance(b.smoothly.refractWeight), b.opaque * baseImportance(b.base), b.frosted);
     float sum = b.odds.x + b.odds.y + b.odds.z + b.odds.w;
