@@ -145,6 +145,16 @@ TEST_CASE("the tail of chi-squared is that of tables") {
     CHECK(test::chiSquaredTail(13174.19, 12799) == doctest::Approx(0.01).epsilon(5e-3));  // by Wilson and Hilferty
 }
 
+TEST_CASE("the tails of Student's t are those of tables") {
+    CHECK(test::studentTail(12.706204736432095, 1) == doctest::Approx(0.05).epsilon(1e-10));
+    CHECK(test::studentTail(1, 1) == doctest::Approx(0.5).epsilon(1e-12));
+    CHECK(test::studentTail(-2.0422724563012373, 30) == doctest::Approx(0.05).epsilon(1e-10));
+    CHECK(test::studentTail(4, 2) == doctest::Approx(1 - 4 / std::sqrt(18.0)).epsilon(1e-12));
+    CHECK(test::studentTail(4.891638475698931, 1e6) == doctest::Approx(1e-6).epsilon(1e-4));  // nearly the normal one
+    CHECK(test::welchP({1, 2, 3, 4}, {1, 2, 3, 4}) == 1);
+    CHECK(test::welchP({1, 2, 3, 4, 5}, {3, 4, 5, 6, 7}) == doctest::Approx(0.0805).epsilon(1e-3));  // t = -2, 8 degrees
+}
+
 TEST_CASE("the files are GLSL as well") {
     std::string source = "#version 460\n#extension GL_EXT_control_flow_attributes : require\n";
     for (const char* part : {"common/language.glsl", "common/neighbours.glsl", "common/numerics.glsl", "bsdf/optics.glsl",

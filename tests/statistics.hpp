@@ -1,10 +1,11 @@
-// Judges of random numbers: Pearson's chi-squared test of counts against expectations.
+// Judges of random numbers: Pearson's chi-squared test of counts against expectations, Student's and Welch's of means.
 #pragma once
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace test {
@@ -36,6 +37,50 @@ inline double chiSquaredTail(double statistic, double dof) {
         if (std::abs(c * d - 1) < 1e-15) break;
     }
     return scale * fraction;
+}
+
+/// The regularised incomplete beta function I_x(a, b), by its continued fraction, from the front after Lentz.
+inline double incompleteBeta(double a, double b, double x) {
+    if (x <= 0 || x >= 1) return x <= 0 ? 0 : 1;
+    if (x > (a + 1) / (a + b + 2)) return 1 - incompleteBeta(b, a, 1 - x);
+    double c = 1;
+    double d = 1 / (1 - (a + b) * x / (a + 1));
+    double fraction = d;
+    for (int m = 1; m < 100000; ++m) {
+        const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
+        d = 1 / (1 + even * d);
+        c = 1 + even / c;
+        fraction *= c * d;
+        const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+        d = 1 / (1 + odd * d);
+        c = 1 + odd / c;
+        fraction *= c * d;
+        if (std::abs(c * d - 1) < 1e-15) break;
+    }
+    return std::exp(a * std::log(x) + b * std::log1p(-x) + std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b)) * fraction / a;
+}
+
+/// Probability that Student's t of `dof` degrees of freedom is at least |t| away from 0.
+inline double studentTail(double t, double dof) {
+    return incompleteBeta(dof / 2, 0.5, dof / (dof + t * t));
+}
+
+/// p-value of Welch's test that two lists of independent numbers have the same mean. Equal numbers throughout have p 1.
+inline double welchP(const std::vector<double>& first, const std::vector<double>& second) {
+    const auto moments = [](const std::vector<double>& list) {
+        const auto n = static_cast<double>(list.size());
+        const double mean = std::accumulate(list.begin(), list.end(), 0.0) / n;
+        double squares = 0;
+        for (const double x : list) squares += (x - mean) * (x - mean);
+        return std::pair(mean, squares / (n * (n - 1)));
+    };
+    const auto [mean1, variance1] = moments(first);
+    const auto [mean2, variance2] = moments(second);
+    const double variance = variance1 + variance2;
+    if (variance == 0) return mean1 == mean2 ? 1 : 0;
+    const double terms = variance1 * variance1 / static_cast<double>(first.size() - 1) +
+                         variance2 * variance2 / static_cast<double>(second.size() - 1);
+    return studentTail((mean1 - mean2) / std::sqrt(variance), variance * variance / terms);
 }
 
 /// Level of each of `cases` independent tests, so that all together reject what is right with probability .01 (Sidak).
