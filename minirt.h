@@ -280,7 +280,7 @@ typedef struct minirt_blob_section {
 } minirt_blob_section;
 
 typedef enum minirt_integrator {
-    MINIRT_INTEGRATOR_SCENE = 0, /* the one that the scene names */
+    MINIRT_INTEGRATOR_SCENE = 0, /* the one that the scene names; of both path tracers the one that is faster on the device */
     MINIRT_INTEGRATOR_WHITTED = 1,
     MINIRT_INTEGRATOR_PATH = 2,
     MINIRT_INTEGRATOR_WAVEFRONT = 3
@@ -1936,6 +1936,14 @@ inline bool aimCamera(const minirt_scene* s, const minirt_camera& camera, minirt
     return lens && camera.vfov > 0 && camera.vfov < 180;
 }
 
+/* The scene's integrator. The two path tracers give the same picture, so of them the faster one on this class of devices: the wavefront on a CPU, whose
+   driver runs both sides of every branch; one kernel on a GPU, which need not keep paths in memory (docs/performance.md). */
+inline minirt_integrator defaultIntegrator(const minirt_scene* s) {
+    if (s->desc.integrator == MINIRT_INTEGRATOR_WHITTED) return MINIRT_INTEGRATOR_WHITTED;
+    const minirt_integrator faster = s->context->info.is_cpu ? MINIRT_INTEGRATOR_WAVEFRONT : MINIRT_INTEGRATOR_PATH;
+    return hasIntegrator(s, faster) ? faster : static_cast<minirt_integrator>(s->desc.integrator);
+}
+
 inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc) {
     const minirt_scene_desc& scene = job->scene->desc;
     if (desc) job->desc = *desc;
@@ -1947,7 +1955,7 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     }
     if (!d.samples) d.samples = scene.samples;
     d.max_depth = d.max_depth ? d.max_depth - 1 : scene.max_depth;
-    if (!d.integrator) d.integrator = static_cast<minirt_integrator>(scene.integrator);
+    if (!d.integrator) d.integrator = defaultIntegrator(job->scene);
     if (!(d.max_dispatch_ms > 0)) d.max_dispatch_ms = 100.0f;
     if (!d.region.width && !d.region.height && !d.region.x && !d.region.y) d.region = {0, 0, d.width, d.height};
     if (!d.width || !d.height || d.width > 16384 || d.height > 16384)
