@@ -1,7 +1,7 @@
 // Pictures of the path tracer against those that Mitsuba's authors rendered of their own test scenes (docs/references.md).
 //
 // Tried by hand: all lights 2 % brighter fail each of the five cases, as does a lens 1 % wider; a panorama whose rows lie half a row off fails those that
-// show it; 2 % more green in one ball fails all cases of the grid but the museum's (1.3 sigma). Not seen: GGX's alpha 0.11 for 0.1, an index of 2.38 for 2.42.
+// show it; 2 % more green in one ball fails the grid under the constant sky and under the lamp. Not seen: GGX's alpha 0.11 for 0.1, an index of 2.38 for 2.42.
 #include <doctest/doctest.h>
 #include <tinyexr.h>
 
