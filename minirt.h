@@ -2066,6 +2066,8 @@ inline void recordRound(minirt_job* job, VkCommandBuffer commands, uint32_t roun
     recordQueue(job, commands, kWaveClosest, round % 2 ? MINIRT_QUEUE_ODD_RAYS : MINIRT_QUEUE_EVEN_RAYS);
     memoryBarrier(c, commands);
     recordQueue(job, commands, kWaveHit, MINIRT_QUEUE_HITS);
+    if (job->scene->pipelines[kWaveMiss])
+        memoryBarrier(c, commands);  // between them for the validation layer, which sees only whole buffers
     recordQueue(job, commands, kWaveMiss, MINIRT_QUEUE_MISSES);
     memoryBarrier(c, commands);
     recordQueue(job, commands, kWaveShadow, round % 2 ? MINIRT_QUEUE_ODD_SHADOWS : MINIRT_QUEUE_EVEN_SHADOWS);

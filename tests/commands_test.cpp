@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "command.hpp"
@@ -147,6 +148,12 @@ TEST_CASE("options out of range are refused before any work and leave no file") 
                  {"--max-depth", "256", "255"},
                  {"--integrator", "fast", "whitted"},
                  {"--integrator", "1", "whitted"},
+                 {"--light-sampling", "best", "surfaces"},
+                 {"--light-sampling", "1", "surfaces"},
+                 {"--seed", "-1", "--seed"},
+                 {"--seed", "4294967296", "--seed"},
+                 {"--clamp", "0", "--clamp"},
+                 {"--clamp", "-2", "--clamp"},
                  {"--time-budget", "-1", "--time-budget"}};
     for (const auto& c : cases) checkRefused({MINIRT_RENDER, blob, "-o", picture, c.option, c.value}, {c.option, c.advice});
     CHECK(fs::is_empty(outputs.path()));
@@ -401,6 +408,35 @@ TEST_CASE("parts of the samples and of the picture are those of the whole") {
         const bool inside = x >= 5 && x < 25 && y >= 6 && y < 16;
         CHECK(region[i] == (inside ? first[i] : 0.0f));
     }
+}
+
+TEST_CASE("options of the path tracers reach them") {
+    if (!test::haveDevice()) return;
+    const test::TemporaryDir dir;
+    const std::string scene =
+        R"({"camera":{"position":[0,2,5],"target":[0,0,0]},"render":{"integrator":"path","spp":4,"size":[16,12]},
+        "lights":[{"type":"rectangle","origin":[-1,2,-1],"u":[2,0,0],"v":[0,0,2],"radiance":[3,2,1]}],"materials":{"m":{"model":"pbr"}},
+        "objects":[{"rectangle":{"origin":[-4,0,4],"u":[8,0,0],"v":[0,0,-8]},"material":"m"}]})";
+    const std::string blob = (dir.path() / "lamp.mrt").string();
+    REQUIRE(run({MINIRTC, "bake", dir.write("lamp.json", scene).string(), "-o", blob, "--quiet"}).exitCode == 0);
+    const auto render = [&](const Words& more) {
+        const std::string path = (dir.path() / "lamp.pfm").string();
+        REQUIRE(run(withArguments({MINIRT_RENDER, blob, "-o", path}, more)).exitCode == 0);
+        int width = 0;
+        int height = 0;
+        return readPfm(path, width, height);
+    };
+    const std::vector<float> plain = render({});
+    CHECK(render({"--seed", "0", "--light-sampling", "mis"}) == plain);
+    CHECK(render({"--seed", "1"}) != plain);
+    const std::vector<float> balance = render({"--light-sampling", "balance"});
+    const std::vector<float> lights = render({"--light-sampling", "lights"});
+    const std::vector<float> surfaces = render({"--light-sampling", "surfaces"});
+    CHECK(std::set<std::vector<float>>{plain, balance, lights, surfaces}.size() == 4);
+    CHECK(render({"--clamp", "1000"}) == plain);
+    const std::vector<float> clamped = render({"--clamp", "0.25"});
+    CHECK(clamped != plain);
+    for (size_t i = 0; i < plain.size(); ++i) CHECK(clamped[i] <= std::min(plain[i], 0.25f));
 }
 
 TEST_CASE("hello prints the three numbers of a colour") {

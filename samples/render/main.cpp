@@ -22,6 +22,9 @@ struct Options {
     uint32_t spp = 0;
     int maxDepth = -1;
     minirt_integrator integrator = MINIRT_INTEGRATOR_SCENE;
+    uint32_t lightSampling = MINIRT_LIGHT_SAMPLING_MIS;
+    uint32_t seed = 0;
+    float clamp = 0;        // 0: none
     double timeBudget = 0;  // seconds, 0: none
     bool validation = false;
 };
@@ -41,6 +44,20 @@ void addOptions(CLI::App& app, Options& o) {
            "--integrator", [&o, integrators](const std::string& name) { o.integrator = integrators.at(name); },
            "How to render (default: the scene's)")
         ->check(CLI::IsMember(integrators));
+    const std::map<std::string, uint32_t> samplings = {{"mis", MINIRT_LIGHT_SAMPLING_MIS},
+                                                       {"balance", MINIRT_LIGHT_SAMPLING_MIS_BALANCE},
+                                                       {"lights", MINIRT_LIGHT_SAMPLING_LIGHTS},
+                                                       {"surfaces", MINIRT_LIGHT_SAMPLING_SURFACES}};
+    app.add_option_function<std::string>(
+           "--light-sampling", [&o, samplings](const std::string& name) { o.lightSampling = samplings.at(name); },
+           "How path tracers find light: pick lights and follow surfaces, weighed by the power (mis) or the balance heuristic, "
+           "or one "
+           "of both alone (default: mis)")
+        ->check(CLI::IsMember(samplings));
+    app.add_option("--seed", o.seed, "Of path tracers: each number gives noise of its own (default: 0)");
+    app.add_option("--clamp", o.clamp,
+                   "Of path tracers: most that one sample may add to a pixel, which darkens (default: no limit)")
+        ->check(CLI::PositiveNumber);
     app.add_option("--samples", o.samples, "Render samples A up to, not including, B: A:B");
     app.add_option("--region", o.region, "Render only this part: X,Y,WIDTHxHEIGHT");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
@@ -76,6 +93,9 @@ minirt_render_desc renderDesc(const Options& o) {
             "--region: give X,Y,WIDTHxHEIGHT, such as 0,0,64x64");
     desc.max_depth = static_cast<uint32_t>(o.maxDepth + 1);
     desc.integrator = o.integrator;
+    desc.light_sampling = o.lightSampling;
+    desc.seed = o.seed;
+    desc.clamp = o.clamp;
     return desc;
 }
 

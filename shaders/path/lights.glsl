@@ -10,9 +10,10 @@ const uint PAIR_LOBE = 3u;
 const uint PAIR_DIRECTION = 4u;
 const uint PAIR_SURVIVAL = 5u;  // and the channel of divided light
 
-uvec2 drawBits(uvec2 pixel, uint vertex, uint pair) {
-    return sobolPairBits(uvec2(pixel.x ^ scatterBits(frame.blocks.z), pixel.y), frame.sampling.x, vertex, pair);
-}
+/// What tells a pixel's random numbers from those of others and of other seeds.
+uvec2 keyOf(uvec2 pixel) { return uvec2(pixel.x ^ scatterBits(frame.blocks.z), pixel.y); }
+
+uvec2 drawBits(uvec2 pixel, uint vertex, uint pair) { return sobolPairBits(keyOf(pixel), frame.sampling.x, vertex, pair); }
 
 vec2 draw(uvec2 pixel, uint vertex, uint pair) {
     uvec2 bits = drawBits(pixel, vertex, pair);

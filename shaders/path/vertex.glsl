@@ -29,7 +29,7 @@ void leave(inout Path path) {
 void chooseChannel(inout Path path, inout Encounter e, uvec2 pixel) {
     if (path.channel != 0u || !dividesLight(e.boundary)) return;
     uint k = min(uint(draw(pixel, path.bounces + 1u, PAIR_SURVIVAL).y * float(CHANNELS)), CHANNELS - 1u);
-    path.channel = channelAt(k, pixel);
+    path.channel = channelAt(k, keyOf(pixel));
     path.throughput *= channelShare(path.channel) * float(CHANNELS);
     e.eta = iorRatio(e.boundary, e.material, e.entering, path.channel);
 }
