@@ -366,6 +366,7 @@ TEST_CASE("white furnace: no surface gains, and white metal and white plastic se
     for (int i = 0; i < alphas; ++i) {
         const double alpha = f64::ggxAlpha(i / (alphas - 1.0));
         std::vector<double> mus;
+        mus.reserve(24);
         for (int j = 0; j < cosines; ++j) mus.push_back((j + 0.5) / cosines);
         // Where rough surfaces lose at grazing angles: from a thousandth to 30 times alpha.
         for (int j = 0; j < cosines; ++j) mus.push_back(std::min(alpha * 1e-3 * std::pow(3e4, j / (cosines - 1.0)), 1.0));

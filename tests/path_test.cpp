@@ -452,7 +452,9 @@ TEST_CASE("a sheet lets through what its alpha leaves, for the eye and for light
     const std::array<std::pair<std::string, double>, 3> kinds = {{{R"("alpha":0.25,"alphaMode":"blend")", 0.75},
                                                                   {R"("alpha":0.75,"alphaMode":"mask")", 0},
                                                                   {R"("alpha":0.75,"alphaMode":"mask","alphaCutoff":0.8)", 1}}};
-    for (const auto& [alpha, passes] : kinds) {
+    for (const auto& kind : kinds) {
+        const std::string& alpha = kind.first;
+        const double passes = kind.second;
         CAPTURE(alpha);
         const TemporaryDir dir;
         const std::string sheet = pbr(R"("ior":1,"baseColor":[0,0,0],)" + alpha);
