@@ -2047,14 +2047,15 @@ inline void recordQueue(minirt_job* job, VkCommandBuffer commands, uint32_t kern
     if (!s->pipelines[kernel]) return;
     c->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s->pipelines[kernel]);
     c->vk.CmdPushConstants(commands, s->pipelineLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof job->frame, &job->frame);
-    c->vk.CmdDispatchIndirect(commands, s->buffers[MINIRT_BINDING_QUEUES].buffer, queue * MINIRT_QUEUE_HEADER_WORDS * 4);
+    c->vk.CmdDispatchIndirect(commands, s->buffers[MINIRT_BINDING_QUEUES].buffer,
+                              VkDeviceSize(queue) * MINIRT_QUEUE_HEADER_WORDS * 4);
 }
 
 inline void recordEmptyQueues(minirt_job* job, VkCommandBuffer commands, uint32_t first, uint32_t count) {
     minirt_context* c = job->scene->context;
     uint32_t headers[MINIRT_QUEUE_COUNT * MINIRT_QUEUE_HEADER_WORDS];
     for (uint32_t i = 0; i < MINIRT_QUEUE_COUNT * MINIRT_QUEUE_HEADER_WORDS; ++i) headers[i] = i % 4 == 1 || i % 4 == 2 ? 1 : 0;
-    constexpr VkDeviceSize kHeaderBytes = MINIRT_QUEUE_HEADER_WORDS * 4;
+    constexpr VkDeviceSize kHeaderBytes = VkDeviceSize(MINIRT_QUEUE_HEADER_WORDS) * 4;
     c->vk.CmdUpdateBuffer(commands, job->scene->buffers[MINIRT_BINDING_QUEUES].buffer, first * kHeaderBytes, count * kHeaderBytes,
                           headers);
     memoryBarrier(c, commands);
