@@ -1614,7 +1614,8 @@ inline minirt_result fillBuffer(minirt_scene* s, uint32_t binding, const void* d
     const bool texel = format != VK_FORMAT_UNDEFINED;
     const VkDeviceSize texelBytes = format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
     if (texel && size / texelBytes > c->limits.maxTexelBufferElements)
-        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the scene has too many %s for this device, which takes %lld in one buffer",
+        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
+                    "the scene has too many %s for this device, which takes %lld in one buffer",
                     binding == MINIRT_BINDING_TEXELS ? "texels of images" : "rows of data", c->limits.maxTexelBufferElements);
     const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                      (texel ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
