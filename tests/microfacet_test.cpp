@@ -89,6 +89,38 @@ Albedos ggxAlbedos(double alpha, double mu, int n) {
     return {sum.whole / (n * n), sum.rise / (n * n)};
 }
 
+/// Mean over the hemisphere under the cosine of a function of the cosine, which varies over scales from alpha to 1.
+template <class Function>
+auto hemisphereMean(double alpha, Function&& function) {
+    const double range = std::log1p(1 / alpha);
+    const int n = 400;
+    auto sum = function(1.0) * 0.0;
+    double all = 0;
+    for (int i = 0; i < n; ++i) {
+        const double scale = range * (i + 0.5) / n;
+        const double mu = alpha * std::expm1(scale);
+        const double weight = mu * std::exp(scale);
+        sum += function(mu) * weight;
+        all += weight;
+    }
+    return sum / all;
+}
+
+/// Directional albedo without a sampler: the single reflections from `once`, which are subtracted from the BSDF to leave a function of
+/// wi.z alone. wi is on the side of wo, where they are dim.
+dvec3 quadratureAlbedo(const f64::MetallicRoughness& m, const dvec3& wo, const Albedos& once) {
+    const dvec3 f0 = f64::metallicRoughnessF0(m);
+    const auto rest = [&](double mu) {
+        const double sine = std::sqrt((1 - mu) * (1 + mu)) / std::max(std::hypot(wo.x, wo.y), 1e-300);
+        const dvec3 wi = wo.z < 1 ? dvec3(wo.x * sine, wo.y * sine, mu) : leaving(mu);
+        const dvec3 h = glm::normalize(wo + wi);
+        const dvec3 fresnel = f0 + (dvec3(1) - f0) * f64::schlickRise(glm::dot(wo, h));
+        const dvec3 single = fresnel * (f64::ggxDensity(m.alpha, h) * f64::smithVisibility(m.alpha, wo, wi));
+        return (f64::evalMetallicRoughness(m, wo, wi) - single) * 3.141592653589793;
+    };
+    return f0 * (once.whole - once.rise) + dvec3(once.rise) + hemisphereMean(m.alpha, rest);
+}
+
 /// Directional albedo by its sampler, both lobes of which are asked at each of 2^13 points.
 dvec3 albedo(const f64::MetallicRoughness& m, const dvec3& wo) {
     const double share = f64::mirroredShare(m, wo);
@@ -284,42 +316,87 @@ TEST_CASE("both ways through a surface are the same") {
     CHECK(transmitted > 30000);
 }
 
-TEST_CASE("the fits of what GGX loses are as good as they say") {
-    double worstLoss = 0;
-    double worstRise = 0;
-    double worstMeanLoss = 0;
-    double worstMeanRise = 0;
+TEST_CASE("the fits of what GGX loses are as good as they say, each from its side") {
+    struct Error {
+        double least = 1;
+        double most = -1;
+        void add(double e) {
+            least = std::min(least, e);
+            most = std::max(most, e);
+        }
+    };
+    Error loss, rise, meanLoss, meanRise;
     double greatest = 0;
-    for (const double roughness : {0.0317, 0.07, 0.13, 0.2, 0.28, 0.37, 0.45, 0.55, 0.65, 0.75, 0.87, 0.95, 1.0}) {
+    for (const double roughness : {1e-3, 0.0317, 0.07, 0.13, 0.2, 0.28, 0.37, 0.45, 0.55, 0.65, 0.75, 0.87, 0.95, 1.0}) {
         const double alpha = f64::ggxAlpha(roughness);
-        for (const double mu : {1e-4, 1e-3, 0.004, 0.01, 0.02, 0.035, 0.06, 0.1, 0.16, 0.25, 0.37, 0.5, 0.65, 0.8, 0.93, 1.0}) {
-            const Albedos right = ggxAlbedos(alpha, mu, 128);
-            greatest = std::max(greatest, 1 - right.whole);
-            worstLoss = std::max(worstLoss, std::abs(f64::ggxLoss(alpha, mu) - (1 - right.whole)));
-            worstRise = std::max(worstRise, std::abs(f64::ggxRise(alpha, mu) - right.rise));
-        }
-        double meanLoss = 0;
-        double meanRise = 0;
-        const int n = 4000;
-        for (int i = 0; i < n; ++i) {
-            const double u = (i + 0.5) / n;  // mu = u^2 looks closer at grazing angles
-            meanLoss += f64::ggxLoss(alpha, u * u) * 4 * u * u * u / n;
-            meanRise += f64::ggxRise(alpha, u * u) * 4 * u * u * u / n;
-        }
         double most = 0;
-        for (int i = 1; i <= 100; ++i) most = std::max(most, f64::ggxLoss(alpha, i * i * 1e-4));
-        worstMeanLoss = std::max(worstMeanLoss, std::abs(meanLoss / f64::ggxMeanLoss(alpha) - 1) * most);
-        worstMeanRise = std::max(worstMeanRise, std::abs(meanRise - f64::ggxMeanRise(alpha)));
+        for (const double mu :
+             {1e-6, 1e-4, 1e-3, 0.004, 0.01, 0.02, 0.035, 0.06, 0.1, 0.16, 0.25, 0.37, 0.5, 0.65, 0.8, 0.93, 1.0}) {
+            const Albedos right = ggxAlbedos(alpha, mu, 256);
+            greatest = std::max(greatest, 1 - right.whole);
+            loss.add(f64::ggxLoss(alpha, mu) - (1 - right.whole));
+            rise.add(f64::ggxRise(alpha, mu) - right.rise);
+            most = std::max(most, f64::ggxLoss(alpha, mu));
+        }
+        const double mean = hemisphereMean(alpha, [&](double mu) { return f64::ggxLoss(alpha, mu); });
+        meanLoss.add((f64::ggxMeanLoss(alpha) / mean - 1) * most);
+        meanRise.add(f64::ggxMeanRise(alpha) - hemisphereMean(alpha, [&](double mu) { return f64::ggxRise(alpha, mu); }));
     }
-    MESSAGE("greatest loss ", greatest, "; fits off: loss ", worstLoss, ", rise ", worstRise, ", mean loss (by what it gives) ",
-            worstMeanLoss, ", mean rise ", worstMeanRise);
-    CHECK(worstLoss < 0.0070);
-    CHECK(worstRise < 0.0085);
-    CHECK(worstMeanLoss < 0.0045);
-    CHECK(worstMeanRise < 0.0010);
+    MESSAGE("greatest loss ", greatest, "; fits off: loss ", loss.least, " to ", loss.most, ", rise ", rise.least, " to ",
+            rise.most, ", mean loss (by what it takes) ", meanLoss.least, " to ", meanLoss.most, ", mean rise ", meanRise.least,
+            " to ", meanRise.most);
+    CHECK(loss.least > -0.0041);
+    CHECK(loss.most < 1e-4);
+    CHECK(rise.least > -7e-5);
+    CHECK(rise.most < 0.0045);
+    CHECK(meanLoss.least > -2e-5);
+    CHECK(meanLoss.most < 7e-4);
+    CHECK(meanRise.least > -9e-5);
+    CHECK(meanRise.most < 1e-5);
 }
 
-TEST_CASE("white furnace: white metal and white plastic send all light back") {
+TEST_CASE("white furnace: no surface gains, and white metal and white plastic send all light back") {
+    double most = 0;
+    double leastMetal = 1;
+    double leastPlastic = 1;
+    double meanMetal = 0;
+    double meanPlastic = 0;
+    const int alphas = 33;
+    const int cosines = 12;
+    for (int i = 0; i < alphas; ++i) {
+        const double alpha = f64::ggxAlpha(i / (alphas - 1.0));
+        std::vector<double> mus;
+        for (int j = 0; j < cosines; ++j) mus.push_back((j + 0.5) / cosines);
+        // Where rough surfaces lose at grazing angles: from a thousandth to 30 times alpha.
+        for (int j = 0; j < cosines; ++j) mus.push_back(std::min(alpha * 1e-3 * std::pow(3e4, j / (cosines - 1.0)), 1.0));
+        for (size_t j = 0; j < mus.size(); ++j) {
+            const dvec3 wo = leaving(mus[j]);
+            const Albedos once = ggxAlbedos(alpha, wo.z, 256);
+            for (const double metallic : {0.0, 0.5, 1.0}) {
+                for (const double f0 : {0.0, 0.04, 0.2}) {
+                    if (metallic == 1 && f0 > 0) continue;  // nothing is left of the coat
+                    const dvec3 back = quadratureAlbedo(material(dvec3(1, 0.5, 0), metallic, alpha, f0), wo, once);
+                    most = std::max({most, back.x, back.y, back.z});
+                    if (metallic == 1) leastMetal = std::min(leastMetal, back.x);
+                    if (metallic == 0) leastPlastic = std::min(leastPlastic, back.x);  // a half metal is no white one
+                    if (j >= static_cast<size_t>(cosines)) continue;
+                    const double weight = 2 * mus[j] / (cosines * alphas);
+                    if (metallic == 1) meanMetal += back.x * weight;
+                    if (metallic == 0 && f0 == 0.04) meanPlastic += back.x * weight;
+                }
+            }
+        }
+    }
+    MESSAGE("albedo at most 1 + ", most - 1, "; of white metal at least ", leastMetal, ", in the mean ", meanMetal,
+            "; of white under a coat at least ", leastPlastic, ", in the mean ", meanPlastic);
+    CHECK(most < 1 + 1e-4);
+    CHECK(leastMetal > 0.995);
+    CHECK(leastPlastic > 0.995);
+    CHECK(meanMetal > 0.9985);
+    CHECK(meanPlastic > 0.9995);
+}
+
+TEST_CASE("white furnace by sampling") {
     double worstMetal = 0;
     double worstPlastic = 0;
     double bare = 1;
@@ -335,14 +412,14 @@ TEST_CASE("white furnace: white metal and white plastic send all light back") {
             bare = std::min(bare, 1 - f64::ggxLoss(alpha, mu));
             const dvec3 gold = albedo(material(dvec3(1, 0.7, 0.3), 1, alpha), wo);
             const dvec3 half = albedo(material(dvec3(1, 0.8, 0.2), 0.5, alpha, 0.08), wo);
-            most = std::max({most, gold.x, gold.y, gold.z, half.x, half.y, half.z});
+            most = std::max({most, metal, plastic, gold.x, gold.y, gold.z, half.x, half.y, half.z});
         }
     }
     MESSAGE("|albedo - 1| of white metal ", worstMetal, ", of white plastic ", worstPlastic,
-            "; without compensation metal falls to ", bare, "; greatest albedo of coloured ones ", most);
-    CHECK(worstMetal < 1e-2);
-    CHECK(worstPlastic < 1e-2);
-    CHECK(most < 1 + 1e-2);
+            "; without compensation metal falls to ", bare, "; greatest albedo ", most);
+    CHECK(worstMetal < 1e-2);  // noise of what is lost at grazing angles
+    CHECK(worstPlastic < 6e-3);
+    CHECK(most < 1 + 2e-3);
 }
 
 TEST_CASE("the furnace does not depend on the sampler") {
@@ -442,7 +519,7 @@ TEST_CASE("the weight of a sample is f cos over its density") {
         if (sample32.pdf <= 0) continue;
         const vec3 f = f32::evalMetallicRoughness(m32, vec3(wo), sample32.wi);
         const double right = static_cast<double>(f.x) * sample32.wi.z / f32::pdfMetallicRoughness(m32, vec3(wo), sample32.wi);
-        worst32 = std::max(worst32, std::abs(right - sample32.weight.x));
+        worst32 = std::max(worst32, std::abs(right - sample32.weight.x) / std::max(1.0, right));
     }
     MESSAGE("weights differ by ", worst, ", densities by ", worstPdf, ", in float ", worst32);
     CHECK(worst < 1e-6);

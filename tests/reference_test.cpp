@@ -1,4 +1,7 @@
 // Pictures of the path tracer against those that Mitsuba's authors rendered of their own test scenes (docs/references.md).
+//
+// Tried by hand: all lights 2 % brighter fail each of the five cases, as does a lens 1 % wider; a panorama whose rows lie half a row off fails those that
+// show it; 2 % more green in one ball fails the grid under the constant sky and under the lamp. Not seen: GGX's alpha 0.11 for 0.1, an index of 2.38 for 2.42.
 #include <doctest/doctest.h>
 #include <tinyexr.h>
 
@@ -186,6 +189,9 @@ void checkGrid(const GpuContext& gpu, const std::string& name, const std::string
         if (cell.part != Part::none)
             tellAgreement(name + ", " + cell.what, reference, passes, [&](uint32_t x, uint32_t y) { return shows(cell, x, y); });
     checkAgreement(name, reference, passes, [](uint32_t x, uint32_t y) { return partAt(x, y) != Part::none; });
+    // A mean without the noise of glass, and without the background.
+    checkAgreement(name + ", Lambertian balls", reference, passes,
+                   [](uint32_t x, uint32_t y) { return shows(kGrid[0], x, y) || shows(kGrid[1], x, y); });
 }
 
 }  // namespace

@@ -157,8 +157,10 @@ TEST_CASE("the tails of Student's t are those of tables") {
 
 TEST_CASE("the files are GLSL as well") {
     std::string source = "#version 460\n#extension GL_EXT_control_flow_attributes : require\n";
-    for (const char* part : {"common/language.glsl", "common/neighbours.glsl", "common/numerics.glsl", "bsdf/optics.glsl",
-                             "sampling/random.glsl", "sampling/warp.glsl", "bsdf/microfacet.glsl"}) {
+    source += "#define MINIRT_FILTER_TENT 1u\n#define MINIRT_FILTER_GAUSSIAN 2u\n";
+    for (const char* part :
+         {"common/language.glsl", "common/neighbours.glsl", "common/numerics.glsl", "bsdf/optics.glsl", "sampling/random.glsl",
+          "sampling/warp.glsl", "sampling/cells.glsl", "sampling/filter.glsl", "bsdf/microfacet.glsl"}) {
         source += minirtc::shaderLibrary().at(part);
     }
     source += "void main() {}\n";
@@ -379,6 +381,20 @@ TEST_CASE("samplers follow their densities") {
         const double sine = radius / centerDistance;
         cone(counts, f64::intoBasis(basis, w), sine * sine / (1 + std::sqrt(1 - sine * sine)));
     };
+    // Height below the pole and longitude over a cell; -Y is mirrored up, where heights are exact.
+    const auto cell = [](SquareCounts& counts, const vec2& u, uvec2 at, uvec2 size) {
+        const dvec3 w(f32::directionInCell(at.x, at.y, size.x, size.y, 0.3f, u));
+        const bool lower = at.y >= (size.y + 1) / 2;
+        const double row = lower ? size.y - 1 - at.y : at.y;
+        const double height = (w.x * w.x + w.z * w.z) / (1 + std::abs(w.y));
+        const double down = (lower ? -w.y : w.y) > 0 ? height : 2 - height;
+        const auto edge = [&](double k) { return 2 * std::pow(std::sin(kTurn / 4 * k / size.y), 2); };
+        const double turn = std::atan2(w.z, w.x) / kTurn + 0.5 + 0.3f;
+        const double across = (turn - std::floor(turn)) * size.x - at.x;
+        if (std::abs(across - 0.5) > 0.51) return counts.addOutside();
+        counts.add((down - edge(row)) / (edge(row + 1) - edge(row)), across);
+    };
+    const auto tent = [](double x) { return x < 0 ? (1 + x) * (1 + x) / 2 : 1 - (1 - x) * (1 - x) / 2; };
     const std::vector<double> flat;
     const struct {
         std::string name;
@@ -411,6 +427,39 @@ TEST_CASE("samplers follow their densities") {
         {"sphere from inside",
          [&](SquareCounts& counts, const vec2& u) { direction(upright, counts, f32::sampleSphereLight(p, center, 4, u).wi); },
          upright.shares([](const dvec3&) { return f64::uniformSpherePdf(); })},
+        {"all directions as one cell",
+         [&](SquareCounts& counts, const vec2& u) {
+             cell(counts, u, {0, 0}, {1, 1});
+         },
+         flat},
+        {"cell across the horizon",
+         [&](SquareCounts& counts, const vec2& u) {
+             cell(counts, u, {3, 1}, {5, 3});
+         },
+         flat},
+        {"cell at the upper pole",
+         [&](SquareCounts& counts, const vec2& u) {
+             cell(counts, u, {7, 0}, {16, 512});
+         },
+         flat},
+        {"cell at the lower pole",
+         [&](SquareCounts& counts, const vec2& u) {
+             cell(counts, u, {0, 511}, {16, 512});
+         },
+         flat},
+        {"tent filter",
+         [&](SquareCounts& counts, const vec2& u) {
+             const vec2 q = f32::filterOffset(u, MINIRT_FILTER_TENT);
+             counts.add(tent(q.x), tent(q.y));
+         },
+         flat},
+        {"gaussian filter",
+         [](SquareCounts& counts, const vec2& u) {
+             const dvec2 q(f32::filterOffset(u, MINIRT_FILTER_GAUSSIAN));
+             const double turn = std::atan2(q.y, q.x) / kTurn;
+             counts.add((1 - std::exp(-2 * glm::dot(q, q))) / (1 - std::exp(-4.5)), turn < 0 ? turn + 1 : turn);
+         },
+         flat},
     };
     const double level = sidakLevel(static_cast<int>(std::size(cases)));
     uint64_t seed = 100;
@@ -427,6 +476,12 @@ TEST_CASE("samplers follow their densities") {
     }
     // The densities of cones are flat: their value is one over the solid angle.
     CHECK(f64::uniformConePdf(0.7) * kTurn * 0.7 == doctest::Approx(1).epsilon(1e-12));
+    for (uint32_t rows : {1u, 2u, 3u, 512u}) {
+        double heights = 0;
+        for (uint32_t row = 0; row < rows; ++row) heights += f64::cellHeight(row, rows);
+        CHECK(heights == doctest::Approx(2).epsilon(1e-6));
+        CHECK(f64::cellPdf(0, 4, rows) * f64::cellHeight(0, rows) * kTurn / 4 == doctest::Approx(1).epsilon(1e-12));
+    }
     CHECK(f64::uniformConePdf(2) == doctest::Approx(f64::uniformSpherePdf()).epsilon(1e-12));
 }
 

@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 
+#include "minirt.h"
+
 // Names that shaders/common/language.glsl gives in GLSL.
 #define PRECISE
 #define UNROLL
@@ -23,6 +25,7 @@ using glm::exp;
 using glm::floatBitsToUint;
 using glm::floor;
 using glm::length;
+using glm::log;
 using glm::max;
 using glm::min;
 using glm::normalize;
@@ -50,6 +53,8 @@ constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 #include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/sampling/random.glsl"
 #include "../shaders/sampling/warp.glsl"
+#include "../shaders/sampling/cells.glsl"
+#include "../shaders/sampling/filter.glsl"
 #include "../shaders/bsdf/microfacet.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
@@ -79,6 +84,8 @@ inline real nextDown(real x) {
 #include "../shaders/bsdf/dispersion.glsl"
 #include "../shaders/sampling/random.glsl"
 #include "../shaders/sampling/warp.glsl"
+#include "../shaders/sampling/cells.glsl"
+#include "../shaders/sampling/filter.glsl"
 #include "../shaders/bsdf/microfacet.glsl"
 #include "../shaders/traverse/box.glsl"
 #include "../shaders/traverse/triangle.glsl"
