@@ -278,6 +278,24 @@ TEST_CASE("paths that spend their budget of steps go on where they were") {
     CHECK(resumed >= 10);  // both kinds of five scenes; a round of the wavefront goes on with rays too
 }
 
+TEST_CASE("both are the same where they are specialised as for a GPU") {
+    TemporaryDir dir;
+    writeFiles(dir);
+    for (const NamedScene& named : {mapsScene(), scenes()[2]}) {
+        CAPTURE(named.name);
+        const auto blob = bakeScene(dir, named.json, named.layout, Kernels::ofAll);
+        GpuContext gpu;
+        if (!gpu) return;
+        GpuContext other;
+        test::specialiseAsGpu(other.get());
+        for (const minirt_integrator integrator : {MINIRT_INTEGRATOR_PATH, MINIRT_INTEGRATOR_WAVEFRONT}) {
+            minirt_render_desc desc = {};
+            desc.integrator = integrator;
+            checkSame(gpu, LoadedScene(gpu, blob).render(desc), LoadedScene(other, blob).render(desc));
+        }
+    }
+}
+
 TEST_CASE("a blob holds no kernel of the wavefront whose queue stays empty") {
     const std::set<std::string> always = {"path", "wave_accumulate", "wave_closest", "wave_generate", "wave_hit"};
     const auto with = [&](std::set<std::string> more) {
