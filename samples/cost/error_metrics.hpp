@@ -1,0 +1,37 @@
+// How wrong a picture is.
+#pragma once
+#include "../common/picture_file.hpp"
+
+namespace cost {
+
+/// Keeps relMSE finite where the reference is black.
+constexpr double kRelMseEpsilon = 0.01;
+
+/// A pixel is wrong if a channel of its 8-bit sRGB value is off by more than this.
+constexpr int kUnseenSteps = 2;
+
+struct Errors {
+    double relMse = 0;       // mean over pixels and channels of (x - r)^2 / (r^2 + kRelMseEpsilon)
+    double largest = 0;      // of |x - r| over all channels, linear radiance
+    double wrongPixels = 0;  // share of all
+};
+
+/// Both of one size.
+Errors compare(const Picture& picture, const Picture& reference);
+
+struct Estimate {
+    double value = 0;
+    double standardError = 0;
+};
+
+/// The part of relMSE that more samples do not remove. `a` and `b` have independent noise of one mean, and so have the two halves of the reference:
+/// the mean of (a - r1)(b - r2) / (r^2 + epsilon) holds the squares of the bias and no variance.
+Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHalf, const Picture& secondHalf);
+
+/// relMSE of the mean of two independent halves, from how much they differ.
+double relMseOfMean(const Picture& firstHalf, const Picture& secondHalf);
+
+/// Of two pictures of one size, pixel by pixel.
+Picture meanOf(const Picture& a, const Picture& b);
+
+}  // namespace cost
