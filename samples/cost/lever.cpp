@@ -27,12 +27,4 @@ size_t findLever(const std::vector<Lever>& levers, LeverKind kind) {
     return i;
 }
 
-std::string describe(const std::vector<Lever>& levers, const Configuration& configuration, const Configuration& from,
-                     const std::string& same) {
-    std::string text;
-    for (size_t i = 0; i < levers.size(); ++i)
-        if (configuration[i] != from[i]) text += (text.empty() ? "" : ", ") + levers[i].settings[configuration[i]].words;
-    return text.empty() ? same : text;
-}
-
 }  // namespace cost

@@ -16,8 +16,8 @@ struct Setting {
 
 struct Lever {
     LeverKind kind = LeverKind::baked;
-    std::string name;   // on the command line and in JSON
-    std::string title;  // in a table
+    std::string name;               // on the command line and in JSON
+    std::string title;              // in a table
     std::vector<Setting> settings;  // the cheapest first
     size_t initial = 0;             // the scene's own
     size_t best = 0;                // the reference's
@@ -36,9 +36,5 @@ Configuration with(Configuration configuration, size_t lever, size_t setting);
 
 /// The number of the lever of this kind, or levers.size().
 size_t findLever(const std::vector<Lever>& levers, LeverKind kind);
-
-/// What sets it apart from `from`: "8 bounces, Schlick's Fresnel"; `same` where nothing does.
-std::string describe(const std::vector<Lever>& levers, const Configuration& configuration, const Configuration& from,
-                     const std::string& same);
 
 }  // namespace cost

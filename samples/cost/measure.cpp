@@ -37,8 +37,8 @@ Picture scaled(Picture picture, float factor) {
 struct Measurer::Tally {
     std::vector<double> ms;
     std::vector<double> relMse;
-    Errors errors;       // of all rounds, summed
-    Picture even, odd;   // sums of the pictures of these rounds
+    Errors errors;      // of all rounds, summed
+    Picture even, odd;  // sums of the pictures of these rounds
 };
 
 Picture Measurer::render(const Configuration& configuration, uint32_t seed, uint32_t firstSample, uint32_t samples, double& ms) {

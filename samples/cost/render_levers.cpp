@@ -61,8 +61,9 @@ Lever numberLever(LeverKind kind, const std::string& name, const std::string& ti
 
 Lever depthLever(uint32_t depth) {
     constexpr uint32_t kDeepest = 255;
-    Lever lever = numberLever(LeverKind::depth, "depth", "Depth limit",
-                              {std::max(depth / 4, 1u), std::max(depth / 2, 1u), depth, std::min(depth * 2, kDeepest)}, depth, "bounce");
+    Lever lever =
+        numberLever(LeverKind::depth, "depth", "Depth limit",
+                    {std::max(depth / 4, 1u), std::max(depth / 2, 1u), depth, std::min(depth * 2, kDeepest)}, depth, "bounce");
     return lever;
 }
 
@@ -98,7 +99,9 @@ Lever integratorLever(const BlobFacts& facts, minirt_integrator own) {
     };
     if (own == MINIRT_INTEGRATOR_WHITTED) {
         add(own, "whitted", "Whitted's tracer");
-        lever.idle = "the scene asks for Whitted's tracer; path tracers compute other light, which is no more accurate picture of the same";
+        lever.idle =
+            "the scene asks for Whitted's tracer; path tracers compute other light, which is no more accurate picture of the "
+            "same";
         return lever;
     }
     const auto addPath = [&] { add(MINIRT_INTEGRATOR_PATH, "path", "the path tracer as one kernel"); };

@@ -1,0 +1,167 @@
+#include "comparison.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+namespace cost {
+namespace {
+
+/// Less than this share of time, error or pixels is not worth a word.
+constexpr double kNoticeable = 0.005;
+constexpr double kNoticeablePixels = 0.001;
+
+bool differ(const Measurement& cheap, const Measurement& accurate, bool random) {
+    if (!random) {
+        const double larger = std::max(cheap.error.relMse, accurate.error.relMse);
+        return std::abs(cheap.error.relMse - accurate.error.relMse) > kNoticeable * larger ||
+               std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
+    }
+    const double deviation = std::hypot(cheap.bias.standardError, accurate.bias.standardError);
+    const bool bias = cheap.repeats > 1 && std::abs(cheap.bias.value - accurate.bias.value) > 3 * deviation;
+    return bias || cheap.relMse.lower > accurate.relMse.upper || accurate.relMse.lower > cheap.relMse.upper;
+}
+
+Spread inverse(const Spread& s) {
+    return {1 / s.median, 1 / s.upper, 1 / s.lower};
+}
+
+bool measurable(const Spread& slowdown) {
+    return !covers(slowdown, 1) && std::abs(slowdown.median - 1) >= kNoticeable;
+}
+
+Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t at, size_t lever,
+                           bool random) {
+    Comparison c;
+    const size_t own = levers[lever].initial;
+    const size_t other = singles[at].configuration[lever];
+    c.lever = lever;
+    c.cheap = std::min(own, other);
+    c.accurate = std::max(own, other);
+    c.measurement = at;
+    const Measurement& cheap = other < own ? singles[at] : singles[0];
+    const Measurement& accurate = other < own ? singles[0] : singles[at];
+    c.slowdown = other < own ? inverse(singles[at].slowdown) : singles[at].slowdown;
+    const double time = measurable(c.slowdown) ? std::log(c.slowdown.median) : 0;
+    double error = 0;
+    if (differ(cheap, accurate, random)) {
+        c.removed = 1 - accurate.error.relMse / std::max(cheap.error.relMse, 1e-30);
+        c.change = c.removed >= 0 ? ErrorChange::less : ErrorChange::more;
+        error = std::log(std::max(cheap.error.relMse, 1e-12) / std::max(accurate.error.relMse, 1e-12));
+        if (!random) c.wrongPixels = std::max(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels, 0.0);
+    }
+    c.usefulness = error - time;
+    return c;
+}
+
+std::string capitalised(std::string text) {
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+std::string costPhrase(const Comparison& c, bool plural) {
+    const std::string s = plural ? "" : "s";
+    if (!measurable(c.slowdown)) return plural ? "have no measurable cost" : "has no measurable cost";
+    if (c.slowdown.median < 1) return "save" + s + " " + percent(1 - c.slowdown.median) + " of the time";
+    if (c.slowdown.median < 2) return "cost" + s + " " + percent(c.slowdown.median - 1) + " more time";
+    return "take" + s + " " + number(c.slowdown.median) + " times as long";
+}
+
+std::string changePhrase(const Comparison& c, bool plural) {
+    const std::string s = plural ? "" : "s";
+    if (c.change == ErrorChange::none) return "change" + s + " nothing that could be measured in the picture";
+    std::string phrase;
+    if (std::abs(c.removed) < kNoticeable)
+        phrase = "change" + s + " little of the error";
+    else if (c.change == ErrorChange::less)
+        phrase = "remove" + s + " " + percent(c.removed) + " of the error";
+    else if (c.removed > -1)
+        phrase = "add" + s + " " + percent(-c.removed) + " to the error";
+    else
+        phrase = "make" + s + " the error " + number(1 - c.removed) + " times as large";
+    if (c.wrongPixels > kNoticeablePixels)
+        phrase += "; without " + std::string(plural ? "them" : "it") + " " + percent(c.wrongPixels) + " of the pixels look wrong";
+    return phrase;
+}
+
+}  // namespace
+
+std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, bool random) {
+    std::vector<Comparison> all;
+    for (size_t lever = 0; lever < levers.size(); ++lever) {
+        std::vector<Comparison> candidates;
+        for (size_t at = 1; at < singles.size(); ++at)
+            if (singles[at].configuration[lever] != levers[lever].initial)
+                candidates.push_back(compareSettings(levers, singles, at, lever, random));
+        const auto best = std::max_element(candidates.begin(), candidates.end(), [](const Comparison& a, const Comparison& b) {
+            return std::abs(a.usefulness) < std::abs(b.usefulness);
+        });
+        if (best != candidates.end()) all.push_back(*best);
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Comparison& a, const Comparison& b) { return std::abs(a.usefulness) > std::abs(b.usefulness); });
+    return all;
+}
+
+std::string sentence(const Lever& lever, const Comparison& c) {
+    const std::string cheap =
+        lever.plural && lever.kind != LeverKind::baked ? lever.settings[c.cheap].name : lever.settings[c.cheap].words;
+    const std::string subject = capitalised(lever.settings[c.accurate].words) + " instead of " + cheap;
+    if (c.change == ErrorChange::none && !measurable(c.slowdown))
+        return subject + (lever.plural ? " make" : " makes") +
+               " no difference that could be measured, neither in time nor in the picture.";
+    return subject + " " + costPhrase(c, lever.plural) + " and " + changePhrase(c, lever.plural) + ".";
+}
+
+std::string idleSentence(const Lever& lever) {
+    return lever.title + " changes nothing on this scene: " + lever.idle + ".";
+}
+
+std::string verdict(const Comparison& c) {
+    const bool time = measurable(c.slowdown);
+    const bool slower = time && c.slowdown.median > 1;
+    if (c.change == ErrorChange::none) return !time ? "either" : slower ? "spare" : "keep";
+    if (c.change == ErrorChange::more) return slower || !time ? "spare" : "trade";
+    return !slower || c.usefulness > 0 ? "keep" : "trade";
+}
+
+std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons) {
+    std::vector<size_t> order;
+    for (const bool known : {false, true})
+        for (size_t i = 0; i < comparisons.size(); ++i) {
+            const LeverKind kind = levers[comparisons[i].lever].kind;
+            if ((kind == LeverKind::samples || kind == LeverKind::integrator) == known) order.push_back(i);
+        }
+    std::vector<size_t> chosen;
+    for (const char* wanted : {"keep", "spare"}) {
+        const auto found = std::find_if(order.begin(), order.end(), [&](size_t i) { return verdict(comparisons[i]) == wanted; });
+        if (found != order.end()) chosen.push_back(*found);
+    }
+    for (size_t i : order)
+        if (chosen.size() < 2 && std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
+    return chosen;
+}
+
+std::string percent(double share) {
+    const double value = share * 100;
+    char text[32];
+    if (value > 99 && value < 99.95)
+        std::snprintf(text, sizeof text, "%.1f %%", value);
+    else
+        std::snprintf(text, sizeof text, std::abs(value) < 0.95 ? "%.1g %%" : "%.0f %%", value);
+    return text;
+}
+
+std::string number(double value) {
+    if (value == 0) return "0";
+    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    char text[48];
+    if (magnitude < -4)
+        std::snprintf(text, sizeof text, "%.2g", value);
+    else
+        std::snprintf(text, sizeof text, "%.*f", std::max(2 - magnitude, 0), value);
+    return text;
+}
+
+}  // namespace cost
