@@ -21,6 +21,7 @@ struct Options {
     std::string stats;
     uint32_t spp = 0;
     int maxDepth = -1;
+    float cutoff = -1;  // below 0: the scene's
     minirt_integrator integrator = MINIRT_INTEGRATOR_SCENE;
     uint32_t lightSampling = MINIRT_LIGHT_SAMPLING_MIS;
     uint32_t seed = 0;
@@ -38,6 +39,10 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--size", o.size, "WIDTHxHEIGHT (default: the scene's)");
     app.add_option("--spp", o.spp, "Samples a pixel (default: the scene's)")->check(CLI::Range(1u, 1u << 24));
     app.add_option("--max-depth", o.maxDepth, "Bounces after the camera ray (default: the scene's)")->check(CLI::Range(0, 255));
+    app.add_option(
+           "--cutoff", o.cutoff,
+           "Of Whitted's tracer: rays end that carry no more than this share of the light; 0 keeps all (default: the scene's)")
+        ->check(CLI::Range(0.0f, 1.0f));
     const std::map<std::string, minirt_integrator> integrators = {
         {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
     app.add_option_function<std::string>(
@@ -96,6 +101,7 @@ minirt_render_desc renderDesc(const Options& o) {
     desc.light_sampling = o.lightSampling;
     desc.seed = o.seed;
     desc.clamp = o.clamp;
+    if (o.cutoff >= 0) desc.throughput_cutoff = o.cutoff > 0 ? o.cutoff : -1.0f;  // the runtime's 0 is the scene's
     return desc;
 }
 
