@@ -91,7 +91,12 @@ std::vector<Lever> bakeLevers(const std::string& sceneFile) {
     return levers;
 }
 
-Baker::Baker(std::string sceneFile) : sceneFile_(std::move(sceneFile)) {
+bool asksForWhitted(const std::string& sceneFile) {
+    minirtc::Diagnostics diagnostics;
+    return minirtc::loadScene(sceneFile, diagnostics).render.integrator == minirtc::Integrator::whitted;
+}
+
+Baker::Baker(std::string sceneFile, bool onlyDefault) : sceneFile_(std::move(sceneFile)), onlyDefault_(onlyDefault) {
     std::string pattern = (std::filesystem::temp_directory_path() / "minirt-cost-XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw std::runtime_error(pattern + ": cannot be made; is there room for temporary files?");
     folder_ = pattern;
@@ -111,6 +116,7 @@ std::string Baker::blobOf(const std::vector<Lever>& levers, const Configuration&
     if (!blob.empty()) return blob;
     options.scene = sceneFile_;
     options.output = (folder_ / (std::to_string(blobs_.size()) + ".mrt")).string();
+    options.onlyDefault = onlyDefault_;
     options.quiet = true;
     const SilencedErrors silenced(!options.levers.empty());
     minirtc::bake(options);

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 namespace cost {
 namespace {
-
-bool isAlpha(size_t i) {
-    return i % 4 == 3;
-}
 
 double weightOf(double reference) {
     return 1.0 / (reference * reference + kRelMseEpsilon);
@@ -21,24 +18,32 @@ bool isWrong(const float* x, const float* r) {
     return false;
 }
 
+double meanWithoutOutliers(std::vector<double>& values) {
+    const auto kept = static_cast<ptrdiff_t>(std::ceil(static_cast<double>(values.size()) * (1 - kOutliers)));
+    std::nth_element(values.begin(), values.begin() + kept - 1, values.end());
+    return std::accumulate(values.begin(), values.begin() + kept, 0.0) / static_cast<double>(kept);
+}
+
 }  // namespace
 
 Errors compare(const Picture& picture, const Picture& reference) {
     Errors errors;
     size_t wrong = 0;
-    const size_t pixels = picture.rgba.size() / 4;
-    for (size_t i = 0; i < picture.rgba.size(); ++i) {
-        if (isAlpha(i)) {
-            wrong += isWrong(&picture.rgba[i - 3], &reference.rgba[i - 3]) ? 1 : 0;
-            continue;
+    std::vector<double> ofPixels;
+    ofPixels.reserve(picture.rgba.size() / 4);
+    for (size_t p = 0; p < picture.rgba.size(); p += 4) {
+        double sum = 0;
+        for (size_t i = p; i < p + 3; ++i) {
+            const double r = reference.rgba[i];
+            const double d = std::abs(picture.rgba[i] - r);
+            sum += d * d * weightOf(r) / 3;
+            errors.largest = std::max(errors.largest, d);
         }
-        const double r = reference.rgba[i];
-        const double d = std::abs(picture.rgba[i] - r);
-        errors.relMse += d * d * weightOf(r);
-        errors.largest = std::max(errors.largest, d);
+        ofPixels.push_back(sum);
+        wrong += isWrong(&picture.rgba[p], &reference.rgba[p]) ? 1 : 0;
     }
-    errors.relMse /= 3.0 * static_cast<double>(pixels);
-    errors.wrongPixels = static_cast<double>(wrong) / static_cast<double>(pixels);
+    errors.wrongPixels = static_cast<double>(wrong) / static_cast<double>(ofPixels.size());
+    errors.relMse = meanWithoutOutliers(ofPixels);
     return errors;
 }
 
@@ -61,14 +66,18 @@ Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHal
 }
 
 double relMseOfMean(const Picture& firstHalf, const Picture& secondHalf) {
-    double sum = 0;
-    for (size_t i = 0; i < firstHalf.rgba.size(); ++i) {
-        if (isAlpha(i)) continue;
-        const double r1 = firstHalf.rgba[i];
-        const double r2 = secondHalf.rgba[i];
-        sum += (r1 - r2) * (r1 - r2) / 4 * weightOf((r1 + r2) / 2);
+    std::vector<double> ofPixels;
+    ofPixels.reserve(firstHalf.rgba.size() / 4);
+    for (size_t p = 0; p < firstHalf.rgba.size(); p += 4) {
+        double sum = 0;
+        for (size_t i = p; i < p + 3; ++i) {
+            const double r1 = firstHalf.rgba[i];
+            const double r2 = secondHalf.rgba[i];
+            sum += (r1 - r2) * (r1 - r2) / 4 * weightOf((r1 + r2) / 2) / 3;
+        }
+        ofPixels.push_back(sum);
     }
-    return sum / (3.0 * static_cast<double>(firstHalf.rgba.size() / 4));
+    return meanWithoutOutliers(ofPixels);
 }
 
 Picture meanOf(const Picture& a, const Picture& b) {

@@ -7,11 +7,14 @@ namespace cost {
 /// Keeps relMSE finite where the reference is black.
 constexpr double kRelMseEpsilon = 0.01;
 
+/// Share of the pixels, those with the largest error, that relMSE leaves out: else a single spark can decide it. Errors::largest keeps them.
+constexpr double kOutliers = 0.001;
+
 /// A pixel is wrong if a channel of its 8-bit sRGB value is off by more than this.
 constexpr int kUnseenSteps = 2;
 
 struct Errors {
-    double relMse = 0;       // mean over pixels and channels of (x - r)^2 / (r^2 + kRelMseEpsilon)
+    double relMse = 0;       // mean over pixels and channels of (x - r)^2 / (r^2 + kRelMseEpsilon), without kOutliers
     double largest = 0;      // of |x - r| over all channels, linear radiance
     double wrongPixels = 0;  // share of all
 };
@@ -28,7 +31,7 @@ struct Estimate {
 /// the mean of (a - r1)(b - r2) / (r^2 + epsilon) holds the squares of the bias and no variance.
 Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHalf, const Picture& secondHalf);
 
-/// relMSE of the mean of two independent halves, from how much they differ.
+/// relMSE of the mean of two independent halves, from how much they differ, without kOutliers.
 double relMseOfMean(const Picture& firstHalf, const Picture& secondHalf);
 
 /// Of two pictures of one size, pixel by pixel.

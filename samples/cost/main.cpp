@@ -67,7 +67,7 @@ cost::Report run(const Options& options) {
     Device device(options.device);
     report.device = device.info();
     cost::Progress progress;
-    cost::Baker baker(options.scene);
+    cost::Baker baker(options.scene, report.baked && cost::asksForWhitted(options.scene));
     const std::vector<cost::Lever> baked = report.baked ? cost::bakeLevers(options.scene) : std::vector<cost::Lever>();
     cost::Scenes scenes(device, baked, [&](const cost::Configuration& configuration) {
         return report.baked ? baker.blobOf(baked, configuration) : options.scene;

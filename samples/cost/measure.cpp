@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace cost {
 namespace {
@@ -11,6 +12,9 @@ constexpr uint32_t kReferenceSeed = 1u << 20;
 
 /// The reference's samples of Whitted's tracer are none of those that are judged by it. A power of two, as the sequence asks for.
 constexpr uint32_t kReferenceFirstSample = 1u << 14;
+
+/// Fewer say nothing about how far times spread.
+constexpr uint32_t kLeastRounds = 3;
 
 uint32_t floorToPowerOfTwo(double value) {
     uint32_t power = 1;
@@ -149,7 +153,7 @@ std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& con
     if (running.empty() || running.front() != configurations.front())
         throw std::runtime_error("the scene's own settings cannot be rendered: " + failures_.front().reason);
     std::vector<Tally> tallies(running.size());
-    for (uint32_t round = 0; round < repeats && (round == 0 || progress_.seconds() < deadline); ++round) {
+    for (uint32_t round = 0; round < repeats && (round < kLeastRounds || progress_.seconds() < deadline); ++round) {
         for (size_t i = 0; i < running.size(); ++i) {
             progress_.show("round " + std::to_string(round + 1) + ", picture", i + 1, running.size());
             add(tallies[i], running[i], round);

@@ -53,7 +53,7 @@ public:
     void makeReference(const Configuration& configuration, double seconds, uint32_t least);
     const Reference& reference() const { return reference_; }
 
-    /// Renders all of them in turn, in rounds, `repeats` times or until `deadline` of the progress's clock has passed, but at least once.
+    /// Renders all of them in turn, in rounds, `repeats` times or until `deadline` of the progress's clock has passed, but three times if that many are asked for.
     /// The first one is what the others are compared with. What failed is left out.
     std::vector<Measurement> measure(const std::vector<Configuration>& configurations, uint32_t repeats, double deadline);
 

@@ -131,7 +131,11 @@ std::string leversSection(const Report& report) {
                 element("li", "", "<span class=\"chip either\">idle</span>" + element("span", "", escaped(idleSentence(lever))));
     for (const Failure& f : report.failures)
         items += element("li", "", "<span class=\"chip either\">failed</span>" + element("span", "", escaped(f.reason)));
-    return element("h2", "", "Each lever, the most useful first") + element("ul", "class=\"levers\"", items);
+    const std::string key =
+        "<b>keep</b>: worth its time. <b>spare</b>: costs time for nothing. <b>trade</b>: more accurate, but slower by more than "
+        "that. <b>either</b>: no difference.";
+    return element("h2", "", "Each lever, the most useful first") + element("ul", "class=\"levers\"", items) +
+           element("p", "class=\"soft\"", key);
 }
 
 /// The scene's own settings, then levers by their use, then combinations by time.
@@ -221,7 +225,8 @@ std::string methodSection(const Report& report) {
     std::string text =
         element("p", "",
                 "<b>Error</b> is relMSE: the mean over pixels and channels of (x − r)² / (r² + " + number(kRelMseEpsilon) +
-                    "), x the linear radiance of the picture, r the reference's. A pixel is <b>wrong</b> when a channel of its "
+                    "), x the linear radiance of the picture, r the reference's, without the " + percent(kOutliers) +
+                    " of the pixels that are worst. A pixel is <b>wrong</b> when a channel of its "
                     "8-bit sRGB value is off by more than " +
                     std::to_string(kUnseenSteps) + " steps.");
     text += element("p", "",

@@ -143,7 +143,7 @@ private:
     std::string label(const PlotPoint& p) {
         const std::string content = plot_.names && !p.name.empty() ? p.label + " " + p.name : p.label;
         double length = 0;
-        for (char c : content) length += (static_cast<unsigned char>(c) & 0xc0) == 0x80 ? 0 : 0.55 * kText;
+        for (char c : content) length += (static_cast<unsigned char>(c) & 0xc0) == 0x80 ? 0 : 0.6 * kText;
         const double x = x_.at(p.time);
         const double y = yOf(p);
         for (double distance = 8; distance < 120; distance += 6) {

@@ -167,6 +167,7 @@ minirt_render_desc renderDesc(const std::vector<Lever>& levers, const Configurat
         const auto whole = static_cast<uint32_t>(value);
         if (levers[i].kind == LeverKind::integrator) desc.integrator = static_cast<minirt_integrator>(whole);
         if (levers[i].kind == LeverKind::depth) desc.max_depth = whole + 1;
+        if (levers[i].kind == LeverKind::cutoff) desc.throughput_cutoff = static_cast<float>(value);
         if (levers[i].kind == LeverKind::lightSampling) desc.light_sampling = whole;
         if (levers[i].kind == LeverKind::samples) desc.samples = whole;
     }

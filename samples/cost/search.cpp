@@ -31,8 +31,9 @@ void walk(const std::vector<Change>& changes, double Change::*gain, const Config
     Configuration at = from;
     std::vector<double> gained(from.size(), 0);
     for (const Change& change : changes) {
-        if (out.size() >= most || -change.*gain <= gained[change.lever]) continue;
-        gained[change.lever] = -change.*gain;
+        const double gains = -(change.*gain);
+        if (out.size() >= most || gains <= gained[change.lever]) continue;
+        gained[change.lever] = gains;
         at[change.lever] = change.setting;
         out.push_back(at);
     }
@@ -66,9 +67,8 @@ std::vector<Configuration> combinations(const std::vector<Lever>& levers, const 
         if (change.error < -kSameError) finer.push_back(change);
         if (change.time < 0 && change.error > kSameError) faster.push_back(change);
     }
-    constexpr double kLeast = 1e-3;
-    const auto perTime = [](const Change& c) { return -c.error / std::max(c.time, kLeast); };
-    const auto perError = [](const Change& c) { return -c.time / std::max(c.error, kLeast); };
+    const auto perTime = [](const Change& c) { return -c.error / std::max(c.time, 1e-3); };
+    const auto perError = [](const Change& c) { return -c.time / std::max(c.error, 1e-3); };
     std::sort(finer.begin(), finer.end(), [&](const Change& a, const Change& b) { return perTime(a) > perTime(b); });
     std::sort(faster.begin(), faster.end(), [&](const Change& a, const Change& b) { return perError(a) > perError(b); });
     std::vector<Configuration> found = {base};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "pareto.hpp"
 #include "search.hpp"
@@ -9,15 +10,16 @@
 namespace cost {
 namespace {
 
-// Shares of the time, in the order in which they are spent.
-constexpr double kReferenceShare = 0.25;
+// Shares of the time, in the order in which they are spent; bakes and pipelines get the rest.
+constexpr double kReferenceShare = 0.3;
 constexpr double kSinglesShare = 0.4;
+constexpr double kPixels = 256.0 * 192.0;
 
-void choosePictureSize(const StudyOptions& options, const minirt_scene_desc& scene, Report& report) {
-    constexpr double kPixels = 256.0 * 192.0;
+/// The scene's shape with about `pixels`.
+void setSize(const minirt_scene_desc& scene, double pixels, Report& report) {
     const double shape = static_cast<double>(scene.width) / scene.height;
-    report.width = options.width ? options.width : static_cast<uint32_t>(std::lround(std::sqrt(kPixels * shape)));
-    report.height = options.height ? options.height : static_cast<uint32_t>(std::lround(std::sqrt(kPixels / shape)));
+    report.width = std::max(static_cast<uint32_t>(std::lround(std::sqrt(pixels * shape))), 1u);
+    report.height = std::max(static_cast<uint32_t>(std::lround(std::sqrt(pixels / shape))), 1u);
 }
 
 std::vector<Lever> allLevers(const std::vector<Lever>& baked, const BlobFacts& facts, bool cpuDevice, uint32_t samples) {
@@ -26,21 +28,32 @@ std::vector<Lever> allLevers(const std::vector<Lever>& baked, const BlobFacts& f
     return levers;
 }
 
-/// The scene's, or the largest power of two below with which every lever gets its repeats in time.
-uint32_t samplesInTime(const std::vector<Lever>& levers, double msPerSample, const StudyOptions& options, uint32_t own) {
-    if (options.samples) return options.samples;
+/// Makes the picture smaller, then takes fewer samples than the scene's, until every lever gets its repeats in time. Returns the samples.
+uint32_t fitWork(const std::vector<Lever>& levers, double msPerSample, const StudyOptions& options,
+                 const minirt_scene_desc& scene, Report& report) {
     constexpr double kSamplesLever = 6.75;  // a quarter, half, two and four times as many
+    constexpr uint32_t kEnough = 4;         // samples worth a smaller picture
+    constexpr double kSmallest = 0.25;
     const double pictures = static_cast<double>(oneAtATime(levers).size()) + kSamplesLever;
-    const double allowed = options.seconds * 1000 * kSinglesShare / (msPerSample * pictures * options.repeats);
-    uint32_t samples = own;
-    while (samples > allowed && samples > 1)
-        samples = (samples & (samples - 1)) ? 1u << static_cast<uint32_t>(std::log2(samples)) : samples / 2;
+    double allowed = options.seconds * 1000 * kSinglesShare / (msPerSample * pictures * options.repeats);
+    const uint32_t wanted = options.samples ? options.samples : std::min(scene.samples, kEnough);
+    if (!options.width && allowed < wanted) {
+        const double scale = std::max(allowed / wanted, kSmallest);
+        setSize(scene, kPixels * scale, report);
+        allowed /= scale;
+    }
+    if (options.samples) return options.samples;
+    uint32_t samples = scene.samples;
+    while (samples > allowed && samples > 1) samples = samples % 2 ? samples - 1 : samples / 2;
     return samples;
 }
 
 /// Measured beside the scene's own settings again: what these took then and now tells how the device's speed has changed.
-void addCombinations(Measurer& measurer, const StudyOptions& options, double deadline, Report& report) {
-    std::vector<Configuration> configurations = combinations(report.levers, report.measurements, options.combinations);
+void addCombinations(Measurer& measurer, const StudyOptions& options, const Progress& progress, double deadline, Report& report) {
+    const double msEach = report.measurements.front().ms.median * options.repeats * 1.5;  // more samples come with some of them
+    const auto fitting = static_cast<size_t>(std::max((deadline - progress.seconds()) * 1000 / msEach, 4.0));
+    std::vector<Configuration> configurations =
+        combinations(report.levers, report.measurements, std::min(options.combinations, fitting));
     if (configurations.empty()) return;
     configurations.insert(configurations.begin(), initialConfiguration(report.levers));
     std::vector<Measurement> found = measurer.measure(configurations, options.repeats, deadline);
@@ -81,25 +94,23 @@ void spendBudget(Scenes& scenes, Measurer& measurer, const StudyOptions& options
 void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOptions& options, Progress& progress,
            Report& report) {
     const std::vector<Lever> baked = scenes.levers();
-    choosePictureSize(options, facts.scene, report);
     report.sceneSamples = facts.scene.samples;
+    setSize(facts.scene, kPixels, report);
+    if (options.width) report.width = options.width, report.height = options.height;
     scenes.setLevers(allLevers(baked, facts, cpuDevice, 4));
-    Measurer measurer(scenes, report.width, report.height, progress);
-    const double msPerSample = measurer.warmUp(initialConfiguration(scenes.levers()));
-    if (msPerSample <= 0) throw std::runtime_error(measurer.failures().front().reason);
-    scenes.setLevers(
-        allLevers(baked, facts, cpuDevice, samplesInTime(scenes.levers(), msPerSample, options, facts.scene.samples)));
+    const double msPerSample =
+        Measurer(scenes, report.width, report.height, progress).warmUp(initialConfiguration(scenes.levers()));
+    const uint32_t samples = fitWork(scenes.levers(), std::max(msPerSample, 1e-3), options, facts.scene, report);
+    scenes.setLevers(allLevers(baked, facts, cpuDevice, samples));
     report.levers = scenes.levers();
 
-    constexpr uint32_t kLeastHalf = 4;
+    Measurer measurer(scenes, report.width, report.height, progress);
     const double start = progress.seconds();
-    const uint32_t own = samplesOf(report.levers, initialConfiguration(report.levers));
-    measurer.makeReference(bestConfiguration(report.levers), options.seconds * kReferenceShare, std::max(kLeastHalf, 2 * own));
-    const double left = options.seconds - (progress.seconds() - start);
-    const double deadline = progress.seconds() + left * kSinglesShare / (1 - kReferenceShare);
-    report.measurements = measurer.measure(oneAtATime(report.levers), options.repeats, deadline);
+    measurer.makeReference(bestConfiguration(report.levers), options.seconds * kReferenceShare, std::max(4u, 2 * samples));
+    report.measurements =
+        measurer.measure(oneAtATime(report.levers), options.repeats, start + options.seconds * (kReferenceShare + kSinglesShare));
     report.singles = report.measurements.size();
-    addCombinations(measurer, options, options.seconds, report);
+    addCombinations(measurer, options, progress, start + options.seconds, report);
 
     report.reference = measurer.reference();
     std::vector<Tradeoff> points;
