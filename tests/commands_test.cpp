@@ -19,8 +19,8 @@ using test::Words;
 namespace fs = std::filesystem;
 
 const Words kCommands[] = {
-    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"},
-    {MINIRTC},         {MINIRT_RENDER},      {MINIRT_COMPARE},      {MINIRT_HELLO},
+    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"}, {MINIRTC},
+    {MINIRT_RENDER},   {MINIRT_COMPARE},     {MINIRT_HELLO},        {MINIRT_COST},
 #ifdef MINIRT_VIEWER
     {MINIRT_VIEWER},
 #endif

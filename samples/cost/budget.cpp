@@ -30,6 +30,11 @@ double msPerSample(const std::vector<Lever>& levers, const Measurement& m, doubl
     return m.ms.median / samplesOf(levers, m.configuration) * pixelRatio;
 }
 
+/// Both path tracers draw the same.
+bool samePicture(const Lever& lever, size_t setting) {
+    return lever.kind == LeverKind::integrator && lever.settings[setting].value != MINIRT_INTEGRATOR_WHITTED;
+}
+
 std::string samplesWords(uint32_t samples) {
     return std::to_string(samples) + (samples == 1 ? " sample a pixel" : " samples a pixel");
 }
@@ -72,7 +77,7 @@ std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetC
         const Setting& own = levers[i].settings[levers[i].initial];
         if (levers[i].kind == LeverKind::samples) {
             if (choice.samples < own.value) lost.push_back(samplesWords(choice.samples) + " instead of " + own.name);
-        } else if (choice.configuration[i] < levers[i].initial) {
+        } else if (choice.configuration[i] < levers[i].initial && !samePicture(levers[i], choice.configuration[i])) {
             lost.push_back(levers[i].settings[choice.configuration[i]].words + " instead of " + own.words);
         }
     }

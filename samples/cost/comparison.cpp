@@ -10,17 +10,19 @@ namespace {
 
 /// Less than this share of time, error or pixels is not worth a word.
 constexpr double kNoticeable = 0.005;
-constexpr double kNoticeablePixels = 0.001;
+constexpr double kNoticeablePixels = 0.002;
 
-bool differ(const Measurement& cheap, const Measurement& accurate, bool random) {
-    if (!random) {
-        const double larger = std::max(cheap.error.relMse, accurate.error.relMse);
-        return std::abs(cheap.error.relMse - accurate.error.relMse) > kNoticeable * larger ||
-               std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
-    }
+bool isChance(const Estimate& difference, double noticeable) {
+    return std::abs(difference.value) <= std::max(3 * difference.standardError, noticeable);
+}
+
+/// The mean difference of the pixels is worth a word and beyond three standard errors, or that of the biases is, or more pixels look wrong.
+bool differ(const Measurement& cheap, const Measurement& accurate) {
+    const double noticeable = kNoticeable * std::max(cheap.error.relMse, accurate.error.relMse);
+    if (!isChance(pairedDifference(cheap.error, accurate.error), noticeable)) return true;
     const double deviation = std::hypot(cheap.bias.standardError, accurate.bias.standardError);
-    const bool bias = cheap.repeats > 1 && std::abs(cheap.bias.value - accurate.bias.value) > 3 * deviation;
-    return bias || cheap.relMse.lower > accurate.relMse.upper || accurate.relMse.lower > cheap.relMse.upper;
+    if (deviation > 0 && !isChance({cheap.bias.value - accurate.bias.value, deviation}, noticeable)) return true;
+    return std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
 }
 
 Spread inverse(const Spread& s) {
@@ -31,8 +33,7 @@ bool measurable(const Spread& slowdown) {
     return !covers(slowdown, 1) && std::abs(slowdown.median - 1) >= kNoticeable;
 }
 
-Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t at, size_t lever,
-                           bool random) {
+Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t at, size_t lever) {
     Comparison c;
     const size_t own = levers[lever].initial;
     const size_t other = singles[at].configuration[lever];
@@ -45,11 +46,11 @@ Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<M
     c.slowdown = other < own ? inverse(singles[at].slowdown) : singles[at].slowdown;
     const double time = measurable(c.slowdown) ? std::log(c.slowdown.median) : 0;
     double error = 0;
-    if (differ(cheap, accurate, random)) {
+    if (differ(cheap, accurate)) {
         c.removed = 1 - accurate.error.relMse / std::max(cheap.error.relMse, 1e-30);
         c.change = c.removed >= 0 ? ErrorChange::less : ErrorChange::more;
         error = std::log(std::max(cheap.error.relMse, 1e-12) / std::max(accurate.error.relMse, 1e-12));
-        if (!random) c.wrongPixels = std::max(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels, 0.0);
+        c.wrongPixels = std::max(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels, 0.0);
     }
     c.usefulness = error - time;
     return c;
@@ -87,20 +88,22 @@ std::string changePhrase(const Comparison& c, bool plural) {
 
 }  // namespace
 
-std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, bool random) {
-    std::vector<Comparison> all;
+std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles) {
+    const auto matters = [](const Comparison& a, const Comparison& b) { return std::abs(a.usefulness) > std::abs(b.usefulness); };
+    std::vector<std::vector<Comparison>> groups;
     for (size_t lever = 0; lever < levers.size(); ++lever) {
-        std::vector<Comparison> candidates;
+        std::vector<Comparison> group;
         for (size_t at = 1; at < singles.size(); ++at)
             if (singles[at].configuration[lever] != levers[lever].initial)
-                candidates.push_back(compareSettings(levers, singles, at, lever, random));
-        const auto best = std::max_element(candidates.begin(), candidates.end(), [](const Comparison& a, const Comparison& b) {
-            return std::abs(a.usefulness) < std::abs(b.usefulness);
-        });
-        if (best != candidates.end()) all.push_back(*best);
+                group.push_back(compareSettings(levers, singles, at, lever));
+        if (group.empty()) continue;
+        std::stable_sort(group.begin(), group.end(), matters);
+        group.front().leading = true;
+        groups.push_back(std::move(group));
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Comparison& a, const Comparison& b) { return std::abs(a.usefulness) > std::abs(b.usefulness); });
+    std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) { return matters(a.front(), b.front()); });
+    std::vector<Comparison> all;
+    for (const std::vector<Comparison>& group : groups) all.insert(all.end(), group.begin(), group.end());
     return all;
 }
 
@@ -131,7 +134,8 @@ std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector
     for (const bool known : {false, true})
         for (size_t i = 0; i < comparisons.size(); ++i) {
             const LeverKind kind = levers[comparisons[i].lever].kind;
-            if ((kind == LeverKind::samples || kind == LeverKind::integrator) == known) order.push_back(i);
+            if (comparisons[i].leading && (kind == LeverKind::samples || kind == LeverKind::integrator) == known)
+                order.push_back(i);
         }
     std::vector<size_t> chosen;
     for (const char* wanted : {"keep", "spare"}) {

@@ -15,6 +15,7 @@ struct Comparison {
     size_t cheap = 0;  // settings of the lever
     size_t accurate = 0;
     size_t measurement = 0;  // of the setting that is not the scene's own
+    bool leading = false;    // of its lever, the one for which the decision matters the most
     Spread slowdown;         // by the accurate setting
     ErrorChange change = ErrorChange::none;
     double removed = 0;      // share of the error that the accurate setting removes; negative: it adds
@@ -22,9 +23,8 @@ struct Comparison {
     double usefulness = 0;   // logarithm of how much more an accurate picture gets out of its time: 1 / (error * time)
 };
 
-/// For each lever the setting for which the decision matters the most; the most useful lever first. Those that are idle or were not measured have none.
-/// `singles`: as oneAtATime gave them. `random`: pictures have noise.
-std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, bool random);
+/// Each setting that was measured against the scene's own, lever by lever, the most useful first. `singles`: as oneAtATime gave them.
+std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles);
 
 /// "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error." The same words for the same numbers.
 std::string sentence(const Lever& lever, const Comparison& comparison);

@@ -19,10 +19,26 @@ bool isWrong(const float* x, const float* r) {
     return false;
 }
 
-double meanWithoutOutliers(std::vector<double>& values) {
-    const auto kept = static_cast<ptrdiff_t>(std::ceil(static_cast<double>(values.size()) * (1 - kOutliers)));
+/// How many of so many values are no outliers.
+ptrdiff_t keptOf(size_t count) {
+    return static_cast<ptrdiff_t>(std::ceil(static_cast<double>(count) * (1 - kOutliers)));
+}
+
+double meanWithoutOutliers(std::vector<float> values) {
+    const ptrdiff_t kept = keptOf(values.size());
     std::nth_element(values.begin(), values.begin() + kept - 1, values.end());
     return std::accumulate(values.begin(), values.begin() + kept, 0.0) / static_cast<double>(kept);
+}
+
+float largestWithoutOutliers(std::vector<float> values) {
+    const auto last = values.begin() + keptOf(values.size()) - 1;
+    std::nth_element(values.begin(), last, values.end());
+    return *last;
+}
+
+Estimate estimateOf(double sum, double squares, double count) {
+    const double mean = sum / count;
+    return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
 }
 
 }  // namespace
@@ -30,8 +46,7 @@ double meanWithoutOutliers(std::vector<double>& values) {
 Errors compare(const Picture& picture, const Picture& reference) {
     Errors errors;
     size_t wrong = 0;
-    std::vector<double> ofPixels;
-    ofPixels.reserve(picture.rgba.size() / 4);
+    errors.ofPixels.reserve(picture.rgba.size() / 4);
     for (size_t p = 0; p < picture.rgba.size(); p += 4) {
         double sum = 0;
         for (size_t i = p; i < p + 3; ++i) {
@@ -40,11 +55,11 @@ Errors compare(const Picture& picture, const Picture& reference) {
             sum += d * d * weightOf(r) / 3;
             errors.largest = std::max(errors.largest, d);
         }
-        ofPixels.push_back(sum);
+        errors.ofPixels.push_back(static_cast<float>(sum));
         wrong += isWrong(&picture.rgba[p], &reference.rgba[p]) ? 1 : 0;
     }
-    errors.wrongPixels = static_cast<double>(wrong) / static_cast<double>(ofPixels.size());
-    errors.relMse = meanWithoutOutliers(ofPixels);
+    errors.wrongPixels = static_cast<double>(wrong) / static_cast<double>(errors.ofPixels.size());
+    errors.relMse = meanWithoutOutliers(errors.ofPixels);
     return errors;
 }
 
@@ -62,12 +77,23 @@ Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHal
         sum += product;
         squares += product * product;
     }
-    const double mean = sum / pixels;
-    return {mean, std::sqrt(std::max(squares / pixels - mean * mean, 0.0) / pixels)};
+    return estimateOf(sum, squares, pixels);
+}
+
+Estimate pairedDifference(const Errors& a, const Errors& b) {
+    const float most = std::max(largestWithoutOutliers(a.ofPixels), largestWithoutOutliers(b.ofPixels));
+    double sum = 0;
+    double squares = 0;
+    for (size_t p = 0; p < a.ofPixels.size(); ++p) {
+        const double d = static_cast<double>(std::min(a.ofPixels[p], most)) - std::min(b.ofPixels[p], most);
+        sum += d;
+        squares += d * d;
+    }
+    return estimateOf(sum, squares, static_cast<double>(a.ofPixels.size()));
 }
 
 double relMseOfMean(const Picture& firstHalf, const Picture& secondHalf) {
-    std::vector<double> ofPixels;
+    std::vector<float> ofPixels;
     ofPixels.reserve(firstHalf.rgba.size() / 4);
     for (size_t p = 0; p < firstHalf.rgba.size(); p += 4) {
         double sum = 0;
@@ -76,7 +102,7 @@ double relMseOfMean(const Picture& firstHalf, const Picture& secondHalf) {
             const double r2 = secondHalf.rgba[i];
             sum += (r1 - r2) * (r1 - r2) / 4 * weightOf((r1 + r2) / 2) / 3;
         }
-        ofPixels.push_back(sum);
+        ofPixels.push_back(static_cast<float>(sum));
     }
     return meanWithoutOutliers(ofPixels);
 }

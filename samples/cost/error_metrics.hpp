@@ -14,9 +14,10 @@ constexpr double kOutliers = 0.001;
 constexpr int kUnseenSteps = 2;
 
 struct Errors {
-    double relMse = 0;       // mean over pixels and channels of (x - r)^2 / (r^2 + kRelMseEpsilon), without kOutliers
-    double largest = 0;      // of |x - r| over all channels, linear radiance
-    double wrongPixels = 0;  // share of all
+    double relMse = 0;            // mean over pixels and channels of (x - r)^2 / (r^2 + kRelMseEpsilon), without kOutliers
+    double largest = 0;           // of |x - r| over all channels, linear radiance
+    double wrongPixels = 0;       // share of all
+    std::vector<float> ofPixels;  // what each adds to the mean of relMSE
 };
 
 /// Both of one size.
@@ -30,6 +31,9 @@ struct Estimate {
 /// The part of relMSE that more samples do not remove. `a` and `b` have independent noise of one mean, and so have the two halves of the reference:
 /// the mean of (a - r1)(b - r2) / (r^2 + epsilon) holds the squares of the bias and no variance.
 Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHalf, const Picture& secondHalf);
+
+/// By how much `a` is more wrong than `b`, pixel by pixel: the mean and its standard error. What is beyond the outliers of both counts as where these begin.
+Estimate pairedDifference(const Errors& a, const Errors& b);
 
 /// relMSE of the mean of two independent halves, from how much they differ, without kOutliers.
 double relMseOfMean(const Picture& firstHalf, const Picture& secondHalf);

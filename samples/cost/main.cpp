@@ -80,7 +80,8 @@ cost::Report run(const Options& options) {
 
 /// What a person without the page wants to know.
 void print(const cost::Report& report) {
-    for (const cost::Comparison& c : report.comparisons) std::cout << sentence(report.levers[c.lever], c) << "\n";
+    for (const cost::Comparison& c : report.comparisons)
+        if (c.leading) std::cout << sentence(report.levers[c.lever], c) << "\n";
     if (report.budgetMs > 0) std::cout << budgetSentence(report) << "\n";
 }
 

@@ -110,6 +110,8 @@ void Measurer::add(Tally& tally, const Configuration& configuration, uint32_t ro
     const Errors errors = compare(picture, reference_.mean);
     tally.relMse.push_back(errors.relMse);
     tally.errors.wrongPixels += errors.wrongPixels;
+    tally.errors.ofPixels.resize(errors.ofPixels.size());
+    for (size_t p = 0; p < errors.ofPixels.size(); ++p) tally.errors.ofPixels[p] += errors.ofPixels[p];
     tally.errors.largest = std::max(tally.errors.largest, errors.largest);
     accumulate(round % 2 ? tally.odd : tally.even, picture);
 }
@@ -126,6 +128,7 @@ Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Confi
     const uint32_t pictures = reference_.random ? m.repeats : 1;
     m.error = tally.errors;
     m.error.wrongPixels /= pictures;
+    for (float& error : m.error.ofPixels) error /= static_cast<float>(pictures);
     for (double relMse : tally.relMse) m.error.relMse += relMse / static_cast<double>(m.repeats);
     const uint32_t evens = (pictures + 1) / 2;
     const Picture even = scaled(tally.even, 1.0f / static_cast<float>(evens));

@@ -53,12 +53,20 @@ std::string chip(const Comparison& c) {
     return "<span class=\"chip " + verdict(c) + "\">" + verdict(c) + "</span>";
 }
 
-std::string pictureLink(const Comparison& c) {
-    return " <a href=\"#" + anchor(c.measurement) + "\">Where?</a>";
+/// Measurements whose pictures the page shows: of settings that change it, as many as do not make the page heavy.
+std::vector<size_t> pictured(const Report& report) {
+    constexpr size_t kMost = 14;
+    std::vector<size_t> chosen = {0};
+    for (const Comparison& c : report.comparisons)
+        if (c.change != ErrorChange::none && chosen.size() <= kMost) chosen.push_back(c.measurement);
+    return chosen;
 }
 
 std::string leverSentence(const Report& report, const Comparison& c) {
-    return escaped(sentence(report.levers[c.lever], c)) + (c.change == ErrorChange::none ? "" : pictureLink(c));
+    const std::vector<size_t> shown = pictured(report);
+    const bool linked = std::find(shown.begin(), shown.end(), c.measurement) != shown.end();
+    return escaped(sentence(report.levers[c.lever], c)) +
+           (linked ? " <a href=\"#" + anchor(c.measurement) + "\">Where?</a>" : "");
 }
 
 std::string head(const Report& report) {
@@ -124,7 +132,7 @@ std::string plotSection(const Report& report) {
 std::string leversSection(const Report& report) {
     std::string items;
     for (const Comparison& c : report.comparisons)
-        items += element("li", "", chip(c) + element("span", "", leverSentence(report, c)));
+        items += element("li", c.leading ? "" : "class=\"more\"", chip(c) + element("span", "", leverSentence(report, c)));
     for (const Lever& lever : report.levers)
         if (!lever.idle.empty())
             items +=
@@ -202,14 +210,9 @@ std::string picturePair(const Report& report, size_t i, const std::string& name)
                        image(differenceUri(m.picture, report.reference.mean), "where it differs from the reference"));
 }
 
-/// Levers that change the picture; more would make the page heavy.
 std::string picturesSection(const Report& report) {
-    constexpr size_t kMost = 10;
-    std::string pairs = picturePair(report, 0, "the scene's own settings");
-    size_t shown = 0;
-    for (const Comparison& c : report.comparisons)
-        if (c.change != ErrorChange::none && shown++ < kMost)
-            pairs += picturePair(report, c.measurement, report.nameOf(c.measurement));
+    std::string pairs;
+    for (size_t i : pictured(report)) pairs += picturePair(report, i, report.nameOf(i));
     const std::string scale = element("div", "class=\"pair\"",
                                       element("p", "class=\"soft\"",
                                               "Right of each picture is how far its pixels are from the reference, in steps of "

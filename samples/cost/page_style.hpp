@@ -28,6 +28,7 @@ figcaption { margin-top: .25rem; }
 .chip.keep { color: var(--keep); } .chip.spare { color: var(--spare); } .chip.trade { color: var(--trade); } .chip.either { color: var(--either); }
 .levers { list-style: none; padding: 0; margin: 0; }
 .levers li { padding: .5rem 0; border-top: 1px solid var(--rule); display: grid; grid-template-columns: 4.4rem 1fr; gap: .3rem .6rem; align-items: start; }
+.levers li.more { border-top: 0; padding-top: 0; font-size: .88rem; color: var(--soft); }
 .card { background: var(--card); border: 1px solid var(--rule); border-radius: 6px; padding: .5rem; }
 .plot { width: 100%; height: auto; font-family: inherit; }
 .plot text { fill: var(--ink); font-size: 11px; } .plot .tick { fill: var(--soft); font-size: 10px; } .plot .axis { fill: var(--soft); }

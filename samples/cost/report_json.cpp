@@ -59,6 +59,7 @@ Json comparisonJson(const Report& report, const Comparison& c) {
     return {{"lever", lever.name},
             {"cheap", lever.settings[c.cheap].name},
             {"accurate", lever.settings[c.accurate].name},
+            {"leading", c.leading},
             {"slowdown", spreadJson(c.slowdown)},
             {"change", changes[static_cast<size_t>(c.change)]},
             {"error_removed", c.removed},

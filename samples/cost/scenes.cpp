@@ -2,6 +2,10 @@
 
 namespace cost {
 
+Scenes::~Scenes() {
+    for (const auto& [key, loaded] : loaded_) minirt_unload(loaded.scene);
+}
+
 const LoadedScene& Scenes::load(const Configuration& configuration) {
     const std::string path = blobOf_(configuration);
     const minirt_integrator integrator = renderDesc(levers_, configuration).integrator;

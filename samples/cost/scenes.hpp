@@ -15,7 +15,7 @@ struct LoadedScene {
     size_t kernelBytes = 0;
 };
 
-/// Loads blobs when a configuration first asks for them; they stay until the device goes.
+/// Loads blobs when a configuration first asks for them, and unloads them with itself; the device must live longer.
 class Scenes {
 public:
     /// `blobOf` gives the blob's path of a configuration and may bake it.
@@ -23,6 +23,9 @@ public:
 
     Scenes(Device& device, std::vector<Lever> levers, BlobOf blobOf)
         : device_(device), levers_(std::move(levers)), blobOf_(std::move(blobOf)) {}
+    ~Scenes();
+    Scenes(const Scenes&) = delete;
+    Scenes& operator=(const Scenes&) = delete;
 
     /// Throws std::runtime_error where it cannot be baked or loaded.
     const LoadedScene& load(const Configuration& configuration);
