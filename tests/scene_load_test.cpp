@@ -122,7 +122,7 @@ TEST_CASE("unknown keys name the nearest known key") {
         {with("\"camera\":{\"fov\":3}"), "s.json:2:11: the camera has no key 'fov'; did you mean 'vfov'?"},
         {with("\"render\":{\"xyzzyx\":3}"),
          "s.json:2:11: the render section has no key 'xyzzyx'; known here: integrator, integrators, "
-         "maxDepth, spp, size, shadows, dispersionMode, filter"},
+         "maxDepth, spp, size, shadows, dispersionMode, filter, accuracy"},
         {material("{\"model\":\"phong\",\"difuse\":1}"),
          "s.json:2:18: the material 'm' has no key 'difuse'; did you mean 'diffuse'?"},
         {object("{\"sphere\":{},\"scale\":2,\"material\":\"white\"}"),
