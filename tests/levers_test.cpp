@@ -107,7 +107,9 @@ TEST_CASE("a lever that is off leaves its effects out and says so") {
     for (size_t i = 0; i < kEffectCount; ++i) CHECK(left.choices[i].included == (static_cast<Effect>(i) == Effect::fresnel));
     CHECK(left[Effect::inscatter].reason == "the lever absorption is set to off");
     CHECK(left[Effect::spheres].reason == called[Effect::spheres].reason);  // was out before
-    CHECK(left.leverDefines.empty());
+    CHECK(definesOf(left.levers).empty());
+    CHECK(left.levers.size() == 4);
+    CHECK(with({{"nesting", "ordered"}, {"fresnel", "exact"}}).levers.empty());
 }
 
 TEST_CASE("settings at their default leave the source of every kernel as it is") {

@@ -123,6 +123,12 @@ TEST_CASE("unknown keys name the nearest known key") {
         {with("\"render\":{\"xyzzyx\":3}"),
          "s.json:2:11: the render section has no key 'xyzzyx'; known here: integrator, integrators, "
          "maxDepth, spp, size, shadows, dispersionMode, filter, accuracy"},
+        {with("\"render\":{\"accuracy\":{\n\"fresnl\":\"none\"}}"),
+         "s.json:3:1: the accuracy section has no key 'fresnl'; did you mean 'fresnel'?"},
+        {with("\"render\":{\"accuracy\":{\"fresnel\":\n\"shlick\"}}"),
+         "s.json:3:1: 'fresnel' is 'shlick'; did you mean 'schlick'?"},
+        {with("\"render\":{\"accuracy\":{\"fresnel\":1}}"), "s.json:2:33: 'fresnel' is a number; give a string"},
+        {with("\"render\":{\"accuracy\":7}"), "s.json:2:22: the accuracy section is a number; give an object"},
         {material("{\"model\":\"phong\",\"difuse\":1}"),
          "s.json:2:18: the material 'm' has no key 'difuse'; did you mean 'diffuse'?"},
         {object("{\"sphere\":{},\"scale\":2,\"material\":\"white\"}"),
