@@ -12,6 +12,7 @@
 #include <spirv-tools/optimizer.hpp>
 
 #include "error.hpp"
+#include "levers.hpp"
 #include "shader_library.hpp"
 
 namespace minirtc {
@@ -128,7 +129,7 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
         const auto effect = static_cast<Effect>(i);
         if (effects.has(effect)) source += std::string("#define ") + effectInfo(effect).define + "\n";
     }
-    for (const std::string& define : effects.leverDefines) source += "#define " + define + "\n";
+    for (const std::string& define : definesOf(effects.levers)) source += "#define " + define + "\n";
     source += "#define VOLUME_CAPACITY " + std::to_string(effects.volumeCapacity) + "\n";
     std::vector<std::string> parts = kParts;
     if (name != "whitted") parts.insert(parts.end(), kPathParts.begin(), kPathParts.end());

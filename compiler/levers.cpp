@@ -179,10 +179,16 @@ void applyToEffects(const LeverSettings& settings, EffectSet& effects) {
     for (const auto& removal : removals)
         if (asked(settings, removal.lever) == removal.setting)
             for (const Effect effect : removal.effects) leaveOut(effects, effect, removal.lever, removal.setting);
+    for (const auto& [lever, setting] : settings)
+        if (setting != findLever(lever).byDefault) effects.levers[lever] = setting;
+}
+
+std::vector<std::string> definesOf(const LeverSettings& settings) {
+    std::vector<std::string> defines;
     for (const Lever& lever : kLevers)
         for (const LeverSetting& setting : lever.settings)
-            if (!setting.define.empty() && asked(settings, lever.name) == setting.name)
-                effects.leverDefines.push_back(setting.define);
+            if (!setting.define.empty() && asked(settings, lever.name) == setting.name) defines.push_back(setting.define);
+    return defines;
 }
 
 Applicability applies(const Lever& lever, const EffectSet& effects) {

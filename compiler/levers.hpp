@@ -49,8 +49,11 @@ std::string settingOf(const Lever& lever, const LeverSettings& asked, const Scen
 /// What the levers say of how volumes nest and light disperses takes the place of what the scene says.
 void applyToScene(const LeverSettings& asked, Scene& scene);
 
-/// Leaves out the effects whose lever is off, and has the kernels compiled by the others.
+/// Leaves out the effects whose lever is off, and notes all settings that are not the default.
 void applyToEffects(const LeverSettings& asked, EffectSet& effects);
+
+/// The names that the kernels are compiled with.
+std::vector<std::string> definesOf(const LeverSettings& settings);
 
 /// Whether a lever can change the picture of a scene that calls for `effects`, and why.
 struct Applicability {
