@@ -93,7 +93,7 @@ void Measurer::makeReference(const Configuration& configuration, double seconds,
 }
 
 const Picture& Measurer::accurateAt(uint32_t samples) {
-    Picture& picture = accurate_[samples];
+    Picture& picture = reference_.atSamples[samples];
     double ms = 0;
     if (picture.rgba.empty()) picture = render(reference_.configuration, 0, 0, samples, ms);
     return picture;

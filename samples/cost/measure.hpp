@@ -18,7 +18,8 @@ struct Reference {
     uint32_t samples = 0;  // of both halves
     bool random = false;   // path tracers: their noise is random; Whitted's pictures repeat bit for bit
     Picture firstHalf, secondHalf, mean;
-    double relMse = 0;  // its own error, from how much its halves differ
+    double relMse = 0;                      // its own error, from how much its halves differ
+    std::map<uint32_t, Picture> atSamples;  // Whitted's: with the first so many samples a pixel
 };
 
 struct Measurement {
@@ -71,7 +72,6 @@ private:
     uint32_t width_, height_;
     Progress& progress_;
     Reference reference_;
-    std::map<uint32_t, Picture> accurate_;  // the reference's settings by samples a pixel
     std::vector<Failure> failures_;
     std::map<Configuration, double> pipelineMs_;
 };

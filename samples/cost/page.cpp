@@ -201,24 +201,37 @@ std::string tableSection(const Report& report) {
            element("p", "class=\"soft\"", "Green: on the Pareto front. Names tell what differs from the scene's own settings.");
 }
 
+/// What a picture is held against: Whitted's show what a lever does at the same samples.
+const Picture& judgeOf(const Report& report, size_t i) {
+    const Configuration& c = report.measurements[i].configuration;
+    const size_t lever = findLever(report.levers, LeverKind::samples);
+    const auto found = report.reference.atSamples.find(samplesOf(report.levers, c));
+    const bool same = found != report.reference.atSamples.end() && c[lever] == report.levers[lever].initial && i > 0;
+    return same ? found->second : report.reference.mean;
+}
+
 std::string picturePair(const Report& report, size_t i, const std::string& name) {
     const Measurement& m = report.measurements[i];
     const std::string what =
         std::to_string(i) + ": " + name + " (relMSE " + number(m.error.relMse) + ", " + number(m.ms.median) + " ms)";
     return element("div", "class=\"pair\" id=\"" + anchor(i) + "\"",
                    element("p", "", escaped(what)) + image(pictureUri(m.picture), name) +
-                       image(differenceUri(m.picture, report.reference.mean), "where it differs from the reference"));
+                       image(differenceUri(m.picture, judgeOf(report, i)), "where it differs from the reference"));
 }
 
 std::string picturesSection(const Report& report) {
     std::string pairs;
     for (size_t i : pictured(report)) pairs += picturePair(report, i, report.nameOf(i));
-    const std::string scale = element("div", "class=\"pair\"",
-                                      element("p", "class=\"soft\"",
-                                              "Right of each picture is how far its pixels are from the reference, in steps of "
-                                              "8-bit sRGB, from 1 to 128 by their logarithm; black is up to " +
-                                                  std::to_string(kUnseenSteps) + ", which nobody sees:") +
-                                          "<img class=\"scale\" src=\"" + differenceScaleUri() + "\" alt=\"the scale\">");
+    const std::string scale =
+        element("div", "class=\"pair\"",
+                element("p", "class=\"soft\"",
+                        "Right of each picture is how far its pixels are from the reference, in steps of "
+                        "8-bit sRGB, from 1 to 128 by their logarithm; black is up to " +
+                            std::to_string(kUnseenSteps) + ", too little to see." +
+                            std::string(report.reference.random ? ""
+                                                                : " Where a lever alone is moved, the reference has the same "
+                                                                  "samples, so that only what the lever does shows.")) +
+                    "<img class=\"scale\" src=\"" + differenceScaleUri() + "\" alt=\"the scale\">");
     return element("h2", "", "Pictures and where they are wrong") + scale + element("div", "class=\"pictures\"", pairs);
 }
 

@@ -76,7 +76,7 @@ void spendBudget(Scenes& scenes, Measurer& measurer, const StudyOptions& options
         samples.settings = {{"", "", static_cast<double>(count)}};
         samples.initial = samples.best = 0;
         scenes.setLevers(levers);
-        return measurer.measure({with(report.choice->configuration, findLever(levers, LeverKind::samples), 0)}, 3, 1e9).front();
+        return measurer.measure({with(report.choice->configuration, findLever(levers, LeverKind::samples), 0)}, 1, 0).front();
     };
     Measurement m = measured(report.choice->samples);
     while (m.ms.median > options.budgetMs && report.choice->samples > 1) {
