@@ -23,7 +23,7 @@ const char* const kGlassBall = R"({
   "background": {"color": [0.4, 0.6, 0.9]},
   "lights": [{"type": "directional", "direction": [-1, -2, -1], "irradiance": [2, 2, 2]}],
   "materials": {
-    "glass": {"model": "pbr", "transmission": 1, "ior": 1.5},
+    "glass": {"model": "pbr", "transmission": 1, "roughness": 0, "ior": 1.5},
     "light": {"model": "pbr", "baseColor": [0.8, 0.8, 0.8]}, "dark": {"model": "pbr", "baseColor": [0.2, 0.1, 0.1]},
     "floor": {"model": "checker", "a": "light", "b": "dark", "scale": 0.5}},
   "objects": [{"sphere": {"center": [0, 0.8, 0], "radius": 0.7}, "material": "glass"},

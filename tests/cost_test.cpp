@@ -93,7 +93,7 @@ cost::Report sampleReport() {
     report.reference.mean = constantPicture(0.3f);
     report.reference.relMse = 1e-4;
     report.front = {5, 1, 0, 4};
-    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5});
+    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
     return report;
 }
 
@@ -154,9 +154,10 @@ TEST_CASE("one spark in a thousand pixels does not decide relMSE, but is the lar
 TEST_CASE("the estimate of the bias finds an offset under noise, and none where there is none") {
     const Picture r1 = noisyPicture(0.5f, 0.02f, 1);
     const Picture r2 = noisyPicture(0.5f, 0.02f, 2);
-    const cost::Estimate biased = cost::squaredBias(noisyPicture(0.52f, 0.2f, 3), noisyPicture(0.52f, 0.2f, 4), r1, r2);
+    const Picture mean = constantPicture(0.5f, 200, 150);
+    const cost::Estimate biased = cost::squaredBias(noisyPicture(0.52f, 0.2f, 3), noisyPicture(0.52f, 0.2f, 4), r1, r2, mean);
     CHECK(std::abs(biased.value - 0.0004 / 0.26) < 4 * biased.standardError);
-    const cost::Estimate unbiased = cost::squaredBias(noisyPicture(0.5f, 0.05f, 5), noisyPicture(0.5f, 0.05f, 6), r1, r2);
+    const cost::Estimate unbiased = cost::squaredBias(noisyPicture(0.5f, 0.05f, 5), noisyPicture(0.5f, 0.05f, 6), r1, r2, mean);
     CHECK(std::abs(unbiased.value) < 4 * unbiased.standardError);
     CHECK(biased.standardError > 0);
     CHECK(cost::relMseOfMean(r1, r2) == doctest::Approx(0.02 * 0.02 / 2 / 0.26).epsilon(0.05));
@@ -204,7 +205,7 @@ TEST_CASE("sentences give the cost of the accurate setting and what the cheap on
 TEST_CASE("sentences say where nothing changes, and where nothing can be told") {
     const std::vector<cost::Lever> levers = {samplesLever()};
     const auto compared = [&](double slowdown, double error) {
-        return cost::compareLevers(levers, {measured({1}, 1, 0.01, 0), measured({2}, slowdown, error, 0)}).front();
+        return cost::compareLevers(levers, {measured({1}, 1, 0.01, 0), measured({2}, slowdown, error, 0)}, 1).front();
     };
     const auto said = [&](double slowdown, double error) { return cost::sentence(levers[0], compared(slowdown, error)); };
     CHECK(said(1.21, 0.01) ==
@@ -226,11 +227,21 @@ TEST_CASE("differences that chance could make are none") {
     std::mt19937 random(1);
     std::normal_distribution<float> noise(0.01f, 0.05f);
     for (float& error : other.error.ofPixels) error = noise(random);
-    const auto change = [&] { return cost::compareLevers(levers, {own, other}).front().change; };
+    const auto change = [&] { return cost::compareLevers(levers, {own, other}, 1).front().change; };
     CHECK(change() == cost::ErrorChange::none);
-    own.bias = {0, 0.0001};
-    other.bias = {0.002, 0.0001};
-    CHECK(change() == cost::ErrorChange::more);
+}
+
+TEST_CASE("a bias counts as it will at the scene's own samples, where noise has gone") {
+    cost::Lever depth = samplesLever();
+    depth.kind = cost::LeverKind::depth;
+    cost::Measurement own = measured({1}, 1, 0.012, 0);
+    cost::Measurement other = measured({0}, 1, 0.010, 0);
+    own.bias = other.bias = {0, 0.001};
+    other.shift = {0.004, 0.001};
+    CHECK(cost::compareLevers({depth}, {own, other}, 1).front().change == cost::ErrorChange::more);
+    const cost::Comparison many = cost::compareLevers({depth}, {own, other}, 100).front();
+    CHECK(many.change == cost::ErrorChange::less);
+    CHECK(many.removed == doctest::Approx(1 - 0.00012 / 0.00406));
 }
 
 TEST_CASE("percentages and numbers are as short as they may be") {

@@ -8,8 +8,8 @@ namespace cost {
 namespace {
 
 /// The part of the error that more samples remove.
-double noiseOf(const Measurement& m) {
-    return std::max(m.error.relMse - std::max(m.bias.value, 0.0), 1e-12);
+double noiseOf(const Measurement& m, const Configuration& own) {
+    return std::max(m.error.relMse - systematicError(m, own), 1e-12);
 }
 
 /// How fast noise falls with the samples: the slope of a line through what the lever of the samples did, in logarithms. 1: as their number.
@@ -19,7 +19,7 @@ double falloff(const std::vector<Lever>& levers, const std::vector<Measurement>&
     for (const Measurement& m : measurements) {
         if (with(m.configuration, samples, levers[samples].initial) != initialConfiguration(levers)) continue;
         const double u = std::log(samplesOf(levers, m.configuration));
-        const double v = std::log(noiseOf(m));
+        const double v = std::log(noiseOf(m, initialConfiguration(levers)));
         n += 1, x += u, y += v, xx += u * u, xy += u * v;
     }
     const double spread = n * xx - x * x;
@@ -44,6 +44,7 @@ std::string samplesWords(uint32_t samples) {
 std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
                                          const std::vector<Measurement>& measurements, double pixelRatio) {
     constexpr double kMostSamples = 1 << 16;
+    const Configuration own = initialConfiguration(levers);
     const double slope = falloff(levers, measurements);
     std::optional<BudgetChoice> best;
     for (const Measurement& m : measurements) {
@@ -51,7 +52,7 @@ std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& le
         const double samples = std::min(std::floor(ms / perSample), kMostSamples);
         if (samples < 1) continue;
         const double error =
-            std::max(m.bias.value, 0.0) + noiseOf(m) * std::pow(samplesOf(levers, m.configuration) / samples, slope);
+            systematicError(m, own) + noiseOf(m, own) * std::pow(samplesOf(levers, m.configuration) / samples, slope);
         if (!best || error < best->relMse) best = {m.configuration, static_cast<uint32_t>(samples), samples * perSample, error};
     }
     return best;

@@ -16,13 +16,32 @@ bool isChance(const Estimate& difference, double noticeable) {
     return std::abs(difference.value) <= std::max(3 * difference.standardError, noticeable);
 }
 
-/// The mean difference of the pixels is worth a word and beyond three standard errors, or that of the biases is, or more pixels look wrong.
-bool differ(const Measurement& cheap, const Measurement& accurate) {
+/// Errors of a cheap and an accurate setting.
+struct ErrorPair {
+    double cheap = 0, accurate = 0;
+    bool differ = false;
+};
+
+/// The mean difference of the pixels is worth a word and beyond three standard errors, or more pixels look wrong.
+ErrorPair deterministicErrors(const Measurement& cheap, const Measurement& accurate) {
+    ErrorPair pair = {cheap.error.relMse, accurate.error.relMse, false};
+    const double noticeable = kNoticeable * std::max(pair.cheap, pair.accurate);
+    pair.differ = !isChance(pairedDifference(cheap.error, accurate.error), noticeable) ||
+                  std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
+    return pair;
+}
+
+/// What more samples leave, the shift between the two, is the cheap one's error; the rest falls as their number.
+ErrorPair noisyErrors(const Measurement& cheap, const Measurement& accurate, const Estimate& shift, double moreSamples) {
+    const double systematic = shift.isSignificant() ? shift.value : 0;
+    ErrorPair pair;
+    pair.cheap = systematic + std::max(cheap.error.relMse - systematic, 0.0) / moreSamples;
+    pair.accurate = accurate.error.relMse / moreSamples;
     const double noticeable = kNoticeable * std::max(cheap.error.relMse, accurate.error.relMse);
-    if (!isChance(pairedDifference(cheap.error, accurate.error), noticeable)) return true;
-    const double deviation = std::hypot(cheap.bias.standardError, accurate.bias.standardError);
-    if (deviation > 0 && !isChance({cheap.bias.value - accurate.bias.value, deviation}, noticeable)) return true;
-    return std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
+    const bool noise = !isChance(pairedDifference(cheap.error, accurate.error), noticeable);
+    pair.differ = noise || systematic > kNoticeable * pair.accurate;
+    if (!noise) pair.cheap = systematic + pair.accurate;
+    return pair;
 }
 
 Spread inverse(const Spread& s) {
@@ -33,7 +52,8 @@ bool measurable(const Spread& slowdown) {
     return !covers(slowdown, 1) && std::abs(slowdown.median - 1) >= kNoticeable;
 }
 
-Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t at, size_t lever) {
+Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t at, size_t lever,
+                           double moreSamples) {
     Comparison c;
     const size_t own = levers[lever].initial;
     const size_t other = singles[at].configuration[lever];
@@ -45,12 +65,16 @@ Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<M
     const Measurement& accurate = other < own ? singles[0] : singles[at];
     c.slowdown = other < own ? inverse(singles[at].slowdown) : singles[at].slowdown;
     const double time = measurable(c.slowdown) ? std::log(c.slowdown.median) : 0;
+    const bool random = singles[0].bias.standardError > 0;
+    const ErrorPair errors =
+        random ? noisyErrors(cheap, accurate, singles[at].shift, levers[lever].kind == LeverKind::samples ? 1 : moreSamples)
+               : deterministicErrors(cheap, accurate);
     double error = 0;
-    if (differ(cheap, accurate)) {
-        c.removed = 1 - accurate.error.relMse / std::max(cheap.error.relMse, 1e-30);
+    if (errors.differ) {
+        c.removed = 1 - errors.accurate / std::max(errors.cheap, 1e-30);
         c.change = c.removed >= 0 ? ErrorChange::less : ErrorChange::more;
-        error = std::log(std::max(cheap.error.relMse, 1e-12) / std::max(accurate.error.relMse, 1e-12));
         c.wrongPixels = std::max(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels, 0.0);
+        error = std::log(std::max(errors.cheap, 1e-12) / std::max(errors.accurate, 1e-12));
     }
     c.usefulness = error - time;
     return c;
@@ -88,14 +112,15 @@ std::string changePhrase(const Comparison& c, bool plural) {
 
 }  // namespace
 
-std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles) {
+std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles,
+                                      double moreSamples) {
     const auto matters = [](const Comparison& a, const Comparison& b) { return std::abs(a.usefulness) > std::abs(b.usefulness); };
     std::vector<std::vector<Comparison>> groups;
     for (size_t lever = 0; lever < levers.size(); ++lever) {
         std::vector<Comparison> group;
         for (size_t at = 1; at < singles.size(); ++at)
             if (singles[at].configuration[lever] != levers[lever].initial)
-                group.push_back(compareSettings(levers, singles, at, lever));
+                group.push_back(compareSettings(levers, singles, at, lever, moreSamples));
         if (group.empty()) continue;
         std::stable_sort(group.begin(), group.end(), matters);
         group.front().leading = true;

@@ -23,8 +23,10 @@ struct Comparison {
     double usefulness = 0;   // logarithm of how much more an accurate picture gets out of its time: 1 / (error * time)
 };
 
-/// Each setting that was measured against the scene's own, lever by lever, the most useful first. `singles`: as oneAtATime gave them.
-std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles);
+/// Each setting that was measured against the scene's own, lever by lever, the most useful first. `singles`: as oneAtATime gave them. `moreSamples`: how
+/// many times as many samples as measured the scene takes by itself; the errors of noisy pictures are expected for so many.
+std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles,
+                                      double moreSamples);
 
 /// "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error." The same words for the same numbers.
 std::string sentence(const Lever& lever, const Comparison& comparison);

@@ -63,21 +63,21 @@ Errors compare(const Picture& picture, const Picture& reference) {
     return errors;
 }
 
-Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHalf, const Picture& secondHalf) {
+Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHalf, const Picture& secondHalf,
+                     const Picture& weights) {
     double sum = 0;
     double squares = 0;
-    const auto pixels = static_cast<double>(a.rgba.size() / 4);
     for (size_t p = 0; p < a.rgba.size(); p += 4) {
         double product = 0;
         for (size_t i = p; i < p + 3; ++i) {
-            const double r1 = firstHalf.rgba[i];
-            const double r2 = secondHalf.rgba[i];
-            product += (a.rgba[i] - r1) * (b.rgba[i] - r2) * weightOf((r1 + r2) / 2) / 3;
+            const double first = static_cast<double>(a.rgba[i]) - firstHalf.rgba[i];
+            const double second = static_cast<double>(b.rgba[i]) - secondHalf.rgba[i];
+            product += first * second * weightOf(weights.rgba[i]) / 3;
         }
         sum += product;
         squares += product * product;
     }
-    return estimateOf(sum, squares, pixels);
+    return estimateOf(sum, squares, static_cast<double>(a.rgba.size() / 4));
 }
 
 Estimate pairedDifference(const Errors& a, const Errors& b) {

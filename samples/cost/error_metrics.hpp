@@ -26,11 +26,14 @@ Errors compare(const Picture& picture, const Picture& reference);
 struct Estimate {
     double value = 0;
     double standardError = 0;
+
+    bool isSignificant() const { return value > 3 * standardError; }
 };
 
-/// The part of relMSE that more samples do not remove. `a` and `b` have independent noise of one mean, and so have the two halves of the reference:
-/// the mean of (a - r1)(b - r2) / (r^2 + epsilon) holds the squares of the bias and no variance.
-Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHalf, const Picture& secondHalf);
+/// The part of relMSE that more samples do not remove. `a` and `b` have independent noise of one mean, and so have the two halves of what they are held
+/// against: the mean of (a - r1)(b - r2) / (weights^2 + epsilon) holds the squares of the bias and no variance.
+Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHalf, const Picture& secondHalf,
+                     const Picture& weights);
 
 /// By how much `a` is more wrong than `b`, pixel by pixel: the mean and its standard error. What is beyond the outliers of both counts as where these begin.
 Estimate pairedDifference(const Errors& a, const Errors& b);

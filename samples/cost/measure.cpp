@@ -43,7 +43,20 @@ struct Measurer::Tally {
     std::vector<double> relMse;
     Errors errors;      // of all rounds, summed
     Picture even, odd;  // sums of the pictures of these rounds
+
+    /// The means of the even and of the odd rounds; of a single round twice that.
+    std::pair<Picture, Picture> halves() const {
+        const size_t odds = ms.size() / 2;
+        const Picture mean = scaled(even, 1.0f / static_cast<float>(ms.size() - odds));
+        return {mean, odds ? scaled(odd, 1.0f / static_cast<float>(odds)) : mean};
+    }
 };
+
+double systematicError(const Measurement& m, const Configuration& own) {
+    if (m.bias.isSignificant()) return m.bias.value;
+    const bool coarser = !std::equal(own.begin(), own.end(), m.configuration.begin(), [](size_t a, size_t b) { return a <= b; });
+    return coarser && m.shift.isSignificant() ? m.shift.value : 0;
+}
 
 Picture Measurer::render(const Configuration& configuration, uint32_t seed, uint32_t firstSample, uint32_t samples, double& ms) {
     minirt_render_desc desc = renderDesc(scenes_.levers(), configuration);
@@ -130,16 +143,17 @@ Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Confi
     m.error.wrongPixels /= pictures;
     for (float& error : m.error.ofPixels) error /= static_cast<float>(pictures);
     for (double relMse : tally.relMse) m.error.relMse += relMse / static_cast<double>(m.repeats);
-    const uint32_t evens = (pictures + 1) / 2;
-    const Picture even = scaled(tally.even, 1.0f / static_cast<float>(evens));
-    m.picture = even;
     if (reference_.random) {
-        const bool both = pictures > 1;
-        const Picture odd = both ? scaled(tally.odd, 1.0f / static_cast<float>(pictures - evens)) : even;
-        if (both) m.bias = squaredBias(even, odd, reference_.firstHalf, reference_.secondHalf);
+        const auto [even, odd] = tally.halves();
+        const auto [ownEven, ownOdd] = own.halves();
         m.picture = meanOf(even, odd);
+        if (pictures > 1) {
+            m.bias = squaredBias(even, odd, reference_.firstHalf, reference_.secondHalf, reference_.mean);
+            m.shift = squaredBias(even, odd, ownEven, ownOdd, reference_.mean);
+        }
     } else {
-        m.sameSamples = compare(even, accurateAt(samplesOf(scenes_.levers(), configuration)));
+        m.picture = tally.even;
+        m.sameSamples = compare(m.picture, accurateAt(samplesOf(scenes_.levers(), configuration)));
         m.bias = {m.sameSamples.relMse, 0};
     }
     m.pipelineMs = pipelineMs_[configuration];

@@ -25,16 +25,20 @@ struct Reference {
 struct Measurement {
     Configuration configuration;
     uint32_t repeats = 0;
-    Spread ms;               // of a picture: its dispatches
-    Spread slowdown;         // over the scene's own settings, round by round
-    Errors error;            // against the reference; relMSE is the mean of the repeats
-    Spread relMse;           // of the repeats
-    Estimate bias;           // part of relMSE that more samples do not remove
+    Spread ms;        // of a picture: its dispatches
+    Spread slowdown;  // over the scene's own settings, round by round
+    Errors error;     // against the reference; relMSE is the mean of the repeats
+    Spread relMse;    // of the repeats
+    Estimate bias;    // part of relMSE that more samples do not remove
+    Estimate shift;   // of random pictures: the same against the scene's own settings, where like random numbers tell small ones
     Errors sameSamples;      // Whitted's: against the reference's settings at the same samples, which is the lever's own doing
     double pipelineMs = 0;   // creation of the pipelines and an empty first dispatch
     size_t kernelBytes = 0;  // of SPIR-V
     Picture picture;         // the mean of the repeats
 };
+
+/// The bias that is beyond doubt; 0 where none is. `own`: the scene's own settings; below them it is theirs that a shift adds to.
+double systematicError(const Measurement& m, const Configuration& own);
 
 /// The configuration that cannot be measured, and why.
 struct Failure {

@@ -174,7 +174,8 @@ std::string cell(const std::string& content, const std::string& cssClass = "") {
 std::string biasCell(const Report& report, const Measurement& m) {
     if (!report.reference.random) return number(m.bias.value);
     if (m.repeats < 2) return "–";
-    return m.bias.value > 3 * m.bias.standardError ? number(m.bias.value) : "none seen";
+    const double bias = systematicError(m, report.measurements.front().configuration);
+    return bias > 0 ? number(bias) : "none seen";
 }
 
 std::string row(const Report& report, size_t i) {
@@ -253,7 +254,9 @@ std::string methodSection(const Report& report) {
         r.random
             ? element("p", "",
                       "<b>Bias</b> is the part of the error that more samples do not remove, from products of independent "
-                      "pictures, in which noise cancels; named where it exceeds three standard errors.")
+                      "pictures, in which noise cancels; named where it exceeds three standard errors. The sentences are for the "
+                      "scene's own " +
+                          std::to_string(report.sceneSamples) + " samples a pixel: bias stays, noise falls as their number.")
             : element("p", "",
                       "<b>At the same samples</b> is relMSE against the reference's settings at the same sample positions: what "
                       "the lever itself does, without the error of too few samples. Whitted's pictures repeat bit for bit.");

@@ -35,6 +35,7 @@ Json measurementJson(const Report& report, size_t i) {
                  {"error", errorsJson(m.error)},
                  {"relmse_spread", spreadJson(m.relMse)},
                  {"bias", {{"relmse", m.bias.value}, {"standard_error", m.bias.standardError}}},
+                 {"shift", {{"relmse", m.shift.value}, {"standard_error", m.shift.standardError}}},
                  {"pipeline_ms", m.pipelineMs},
                  {"kernel_bytes", m.kernelBytes},
                  {"on_front", std::find(report.front.begin(), report.front.end(), i) != report.front.end()}};

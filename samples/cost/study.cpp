@@ -118,7 +118,7 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.front = paretoFront(points);
     const std::vector<Measurement> singles(report.measurements.begin(),
                                            report.measurements.begin() + static_cast<ptrdiff_t>(report.singles));
-    report.comparisons = compareLevers(report.levers, singles);
+    report.comparisons = compareLevers(report.levers, singles, static_cast<double>(report.sceneSamples) / samples);
     if (options.budgetMs > 0) spendBudget(scenes, measurer, options, report);
     report.failures = measurer.failures();
     report.seconds = progress.seconds();
