@@ -7,8 +7,8 @@
 namespace hard_cases {
 namespace {
 
-/// A black wall before white: percent of the pixels that see through.
-double seenThrough(const Stage& stage, const View& view, const std::string& obj, const Pose& pose) {
+/// A black wall before white, or before a white square of `floor` metres: percent of the pixels that see through.
+double seenThrough(const Stage& stage, const View& view, const std::string& obj, const Pose& pose, double floor = 0) {
     stage.write("wall.obj", obj);
     Shot shot;
     shot.view = view;
@@ -16,6 +16,9 @@ double seenThrough(const Stage& stage, const View& view, const std::string& obj,
     shot.materials["black"] = {{"model", "phong"}, {"diffuse", 0}};
     shot.objects = {meshOf("wall.obj", "black")};
     if (pose.center != dvec3(0)) shot.objects.push_back(counterweight(pose, "black"));
+    shot.materials["white"] = {{"model", "pbr"}, {"baseColor", {0, 0, 0}}, {"emissive", {1, 1, 1}}};
+    const dvec3 corner = pose.point(-floor / 2, -floor / 2, -floor / 100);
+    if (floor > 0) shot.objects.push_back(rectangle(corner, floor * pose.right, floor * pose.up, "white"));
     const Picture picture = stage.render(shot);
     return percentOf(picture, [&](uint32_t x, uint32_t y) { return picture.at(x, y) > 0.5; });
 }
@@ -36,6 +39,12 @@ double aimedRays(const Stage& stage, double x, double y, double distance) {
     // An odd number of cells has no vertex in the middle, nor has an even number of pixels a centre there.
     const Grid grid{kAimed + 5, kAimed + 5, kCell, kCell, x * kCell, y * kCell};
     return seenThrough(stage, across(pose, kAimed * kCell, kAimed * kCell, kAimed), wall(pose, grid), pose);
+}
+
+double tinyAndHuge(const Stage& stage) {
+    const Pose pose = tilted(dvec3(0));
+    const Grid grid{44, 44, 0.002, 0.002, 0, 0};
+    return seenThrough(stage, across(pose, 0.1, 0.08, 64), wall(pose, grid), pose, 1e4);
 }
 
 double needles(const Stage& stage) {
@@ -83,6 +92,7 @@ std::vector<HardCase> intersectionCases() {
          [](const Stage& s) { return aimedRays(s, 0, 0, 1e3); }},
         {"edges far away", "rays aimed at shared edges, 1 km from the middle of the scene", through, 0,
          [](const Stage& s) { return aimedRays(s, 0, 0.3, 1e3); }},
+        {"tiny and huge", "triangles with legs of 2 mm before a floor of 10 km", through, 0, tinyAndHuge},
         {"needles", "triangles of 1 m by 0.1 mm", through, 0, needles},
         {"rays in planes", "rays along an axis in the planes that bound the boxes of the hierarchy", through, 0, raysInPlanes},
         {"deep tree", "squares that double in size 48 times", "lost rays and % of wrong pixels", 0, deepTree},

@@ -1,5 +1,6 @@
 // Glass at its limits: the critical angle, indices of 1 and of extremes, normals that disagree, reflectance by Fresnel's equations.
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "cases.hpp"
 #include "wall.hpp"
@@ -122,6 +123,32 @@ double extremes(const Stage& stage) {
     return excess + static_cast<double>(picture.stats.nan_pixels);
 }
 
+/// Up into a panorama of four columns, in which all of them and the seam meet. Not within a ten thousandth of the pole, where a float's direction has
+/// no certain angle.
+double pole(const Stage& stage) {
+    // Radiance's format, a row without run lengths: mantissas with the exponent 0.
+    const unsigned char columns[] = {64, 192, 192, 64};
+    std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+    for (int row = 0; row < 2; ++row)
+        for (const unsigned char value : columns) hdr += std::string(3, static_cast<char>(value)) + static_cast<char>(128);
+    stage.write("sky.hdr", hdr);
+    Shot shot;
+    shot.view = {dvec3(0), {0, 1, 0}, 10, 128, {0, 0, -1}};
+    shot.panorama = "sky.hdr";
+    shot.materials["black"] = {{"model", "phong"}, {"diffuse", 0}};
+    shot.objects = {rectangle({-1, -2, -1}, {0, 0, 2}, {2, 0, 0}, "black")};
+    const Picture picture = stage.render(shot);
+    return static_cast<double>(picture.stats.nan_pixels) + largestOf(picture, [&](uint32_t x, uint32_t y) {
+               const dvec3 d = shot.view.direction(x, y);
+               if (std::hypot(d.x, d.z) < 1e-4) return 0.0;
+               const double column = (std::atan2(d.z, d.x) / (2 * glm::pi<double>()) + 0.5) * 4 - 0.5;
+               const int left = static_cast<int>(std::floor(column));
+               const double share = column - left;
+               const double radiance = columns[(left + 4) % 4] * (1 - share) + columns[(left + 5) % 4] * share;
+               return std::abs(picture.at(x, y) - radiance / 256);
+           });
+}
+
 /// A coarse ball of mirrors with smooth normals in a white room: all that it reflects is white, but for what went into it.
 double normalsApart(const Stage& stage) {
     stage.write("gem.obj",
@@ -151,6 +178,8 @@ std::vector<HardCase> opticsCases() {
          [](const Stage& s) { return criticalAngle(s, 2.417); }},
         {"index 1", "a ball of index 1 before a floor, against no ball", "% of pixels that differ", 0, indexOne},
         {"extreme indices", "glass of index 0.25, 1.0001 and 4 in a white room", "radiance over 1, and NaNs", 1e-5, extremes},
+        // Texture coordinates to 3e-7 turns, on a slope of 2 a turn, for directions of which both parts are known to 1e-7 / 1e-4.
+        {"pole", "where all columns of a panorama meet overhead", "error, and NaNs", 1e-3, pole},
         {"normals apart", "a mirror whose smooth normals are far from its faces'", "% of rays that went into it", 0,
          normalsApart},
     };

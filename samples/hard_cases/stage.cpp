@@ -18,7 +18,10 @@ Json sceneOf(const Shot& shot) {
     const View& view = shot.view;
     Json scene;
     scene["camera"] = {{"position", at(view.position)}, {"target", at(view.target)}, {"up", at(view.up)}, {"vfov", view.vfov}};
-    scene["background"]["color"] = at(dvec3(shot.background));
+    if (shot.panorama.empty())
+        scene["background"]["color"] = at(dvec3(shot.background));
+    else
+        scene["background"]["image"] = shot.panorama;
     scene["render"] = {{"size", {view.size, view.size}}, {"maxDepth", shot.maxDepth}, {"integrators", {"whitted"}}};
     scene["materials"] = shot.materials;
     scene["objects"] = shot.objects;
