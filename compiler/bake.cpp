@@ -119,7 +119,8 @@ void requireValid(const std::string& scene, const std::vector<uint8_t>& blob) {
 int bake(const BakeOptions& options) {
     const double start = nowMs();
     checkOutputs(options);
-    Diagnostics diagnostics;
+    Diagnostics own;
+    Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
     Scene scene = loadScene(options.scene, diagnostics);
     const LeverSettings asked = askedLevers(options, scene);
     applyToScene(asked, scene);
@@ -139,7 +140,7 @@ int bake(const BakeOptions& options) {
 
     requireValid(options.scene, blob);
 
-    for (const std::string& warning : diagnostics.warnings) std::cerr << warning << "\n";
+    for (const std::string& warning : own.warnings) std::cerr << warning << "\n";
     if (options.explain) {
         printEffects(effects);
         printLevers(asked, scene);

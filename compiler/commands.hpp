@@ -21,6 +21,7 @@ struct BakeOptions {
     std::string saveGlslDir;  // "": do not
     std::string statsFile;    // "": none
     bool quiet = false;
+    Diagnostics* diagnostics = nullptr;  // takes the warnings, which else go to stderr
 };
 
 int bake(const BakeOptions& options);
