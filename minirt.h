@@ -372,8 +372,8 @@ typedef struct minirt_allocator {
     void* user;
 } minirt_allocator;
 
-/* The host's own device, which it keeps and destroys after the context. All fields or none (get_instance_proc_addr alone is also
-   fine). The queue must support compute; no other thread may use it during a call. Vulkan 1.1 or later. */
+/* The host's own device, which it keeps and destroys after the context. All fields up to the queue or none (get_instance_proc_addr alone is
+   also fine). The queue must support compute; no other thread may use it during a call. Vulkan 1.1 or later. */
 typedef struct minirt_host_device {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;
     VkInstance instance;
@@ -381,6 +381,7 @@ typedef struct minirt_host_device {
     VkDevice device;
     VkQueue queue;
     uint32_t queue_family;
+    int shader_float64; /* 1: the device has the feature shaderFloat64 enabled, which kernels in double precision need */
 } minirt_host_device;
 
 typedef struct minirt_context_desc {
@@ -489,10 +490,11 @@ typedef struct minirt_render_desc {
     minirt_integrator integrator; /* 0: the scene's */
     uint32_t light_sampling;      /* of the path tracers: MINIRT_LIGHT_SAMPLING_; same mean, the first with the least noise */
     uint32_t seed;                /* of the path tracers: another one gives another picture with noise of its own */
-    float clamp;                  /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
-    const minirt_camera* camera;  /* NULL: the scene's */
-    minirt_region region;         /* all zero: the whole image */
-    float max_dispatch_ms;        /* 0: 100 */
+    float throughput_cutoff; /* of Whitted's tracer: rays end that carry no more in any channel; 0: the scene's, below 0: none */
+    float clamp;             /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
+    const minirt_camera* camera;       /* NULL: the scene's */
+    minirt_region region;              /* all zero: the whole image */
+    float max_dispatch_ms;             /* 0: 100 */
     minirt_progress_callback progress; /* may be NULL */
     void* progress_user;
     minirt_stats* stats; /* may be NULL: written by minirt_render */
@@ -987,8 +989,8 @@ inline minirt_result validate(const void* data, size_t size, minirt_blob* out, m
 /* clang-format off */
 #define MINIRT_INSTANCE_FUNCTIONS(X) \
     X(DestroyInstance) X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceProperties2) \
-    X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties) X(CreateDevice) \
-    X(GetDeviceProcAddr)
+    X(GetPhysicalDeviceFeatures) X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties) \
+    X(CreateDevice) X(GetDeviceProcAddr)
 #define MINIRT_DEVICE_FUNCTIONS(X) \
     X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit) X(QueueWaitIdle) X(CreateBuffer) X(DestroyBuffer) \
     X(GetBufferMemoryRequirements) X(AllocateMemory) X(FreeMemory) X(BindBufferMemory) X(MapMemory) \
@@ -1037,6 +1039,7 @@ struct minirt_context {
     void* logUser = nullptr;
     char message[512] = "";
     bool lost = false;
+    bool float64 = false; /* shaderFloat64 is enabled */
     bool ownsDevice = true;
     void* loader = nullptr;
     minirt_detail::Functions vk;
@@ -1396,10 +1399,16 @@ inline minirt_result createDevice(minirt_context* c) {
     queue.queueFamilyIndex = c->queueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
+    VkPhysicalDeviceFeatures offered;
+    c->vk.GetPhysicalDeviceFeatures(c->physicalDevice, &offered);
+    VkPhysicalDeviceFeatures enabled = {};
+    enabled.shaderFloat64 = offered.shaderFloat64;
+    c->float64 = offered.shaderFloat64 != 0;
     VkDeviceCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &enabled;
     return check(c, c->vk.CreateDevice(c->physicalDevice, &info, nullptr, &c->device), "vkCreateDevice");
 }
 
@@ -1443,6 +1452,7 @@ inline minirt_result openContext(minirt_context* c, const minirt_context_desc& d
         c->device = desc.host.device;
         c->queue = desc.host.queue;
         c->queueFamily = desc.host.queue_family;
+        c->float64 = desc.host.shader_float64 != 0;
         if (minirt_result r = loadInstanceFunctions(c)) return r;
     }
     uint32_t timestampBits;
@@ -1750,12 +1760,26 @@ inline Specialisation specialisation(const minirt_scene* scene) {
     return s;
 }
 
+/* Whether a module declares the capability Float64. Capabilities are the first instructions after the header of five words. */
+inline bool needsFloat64(const uint32_t* words, size_t count) {
+    constexpr uint32_t kOpCapability = 17;
+    constexpr uint32_t kFloat64 = 10;
+    for (size_t i = 5; i + 1 < count && words[i] == (2u << 16 | kOpCapability); i += 2)
+        if (words[i + 1] == kFloat64) return true;
+    return false;
+}
+
 inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel, VkPipeline* out) {
     minirt_context* c = s->context;
     VkShaderModuleCreateInfo module = {};
     module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     module.codeSize = static_cast<size_t>(kernel.spirv_size);
     module.pCode = static_cast<const uint32_t*>(static_cast<const void*>(s->spirv + kernel.spirv_offset));
+    if (!c->float64 && needsFloat64(module.pCode, module.codeSize / 4))
+        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
+                    c->ownsDevice ? "the kernels are in double precision, which the device does not offer (shaderFloat64); bake "
+                                    "with precision=float"
+                                  : "the kernels are in double precision; enable shaderFloat64 and say so in minirt_host_device");
     VkShaderModule shader = VK_NULL_HANDLE;
     if (minirt_result r = check(c, c->vk.CreateShaderModule(c->device, &module, nullptr, &shader), "vkCreateShaderModule"))
         return r;
@@ -1924,7 +1948,7 @@ inline bool aimCamera(const minirt_scene* s, const minirt_camera& camera, minirt
         upward[i] = static_cast<float>((right[(i + 1) % 3] * forward[(i + 2) % 3] - right[(i + 2) % 3] * forward[(i + 1) % 3]) *
                                        halfHeight);
     }
-    frame.position = {position[0], position[1], position[2], scene.throughput_cutoff};
+    frame.position = {position[0], position[1], position[2], frame.position.w};
     frame.forward = {static_cast<float>(forward[0]), static_cast<float>(forward[1]), static_cast<float>(forward[2]),
                      static_cast<float>(camera.aperture * 0.5)};
     frame.right = {static_cast<float>(right[0] * halfWidth), static_cast<float>(right[1] * halfWidth),
@@ -1962,6 +1986,7 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     d.max_depth = d.max_depth ? d.max_depth - 1 : scene.max_depth;
     if (!d.integrator) d.integrator = defaultIntegrator(job->scene);
     if (!(d.max_dispatch_ms > 0)) d.max_dispatch_ms = 100.0f;
+    if (d.throughput_cutoff == 0) d.throughput_cutoff = scene.throughput_cutoff;
     if (!d.region.width && !d.region.height && !d.region.x && !d.region.y) d.region = {0, 0, d.width, d.height};
     if (!d.width || !d.height || d.width > 16384 || d.height > 16384)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "width and height must be 1 to 16384 (or both 0 for the scene's)");
@@ -1971,6 +1996,7 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     if (d.light_sampling > MINIRT_LIGHT_SAMPLING_SURFACES)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "unknown light_sampling");
     if (!(d.clamp >= 0)) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "clamp must not be negative");
+    if (isnan(d.throughput_cutoff)) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "throughput_cutoff is not a number");
     if (!d.region.width || !d.region.height || d.region.x > d.width || d.region.width > d.width - d.region.x ||
         d.region.y > d.height || d.region.height > d.height - d.region.y)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "the region lies outside of the image");
@@ -2031,6 +2057,7 @@ inline void setFrame(minirt_job* job) {
     job->frame.size = {d.width, d.height, queues ? job->stateBlocks * kBlockPixels : waitingRoom(job), 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
     job->frame.up.w = d.clamp;
+    job->frame.position.w = larger(d.throughput_cutoff, 0.0f);
     job->frame.blocks = {0, (region.width + 7) / 8, d.seed, stateWords(job)};
     job->frame.sampling = {d.first_sample, d.light_sampling << MINIRT_FRAME_LIGHTS_SHIFT, d.max_depth, 0};
 }

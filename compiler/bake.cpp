@@ -20,6 +20,15 @@ void printEffects(const EffectSet& effects) {
     }
 }
 
+/// The levers that are not at their default.
+void printLevers(const LeverSettings& asked, const Scene& scene) {
+    for (const Lever& lever : levers()) {
+        const std::string setting = lever.when == LeverTime::bake ? settingOf(lever, asked, scene) : lever.byDefault;
+        if (setting != lever.byDefault)
+            std::cout << "set  " << lever.name << ": " << setting << ", by default " << lever.byDefault << "\n";
+    }
+}
+
 void printVolumes(const Geometry& geometry, const Volumes& volumes) {
     for (const Displacement& pair : volumes.displacements) {
         std::cout << geometry.bodies[pair.above].name << " displaces " << geometry.bodies[pair.below].name << ": " << pair.reason
@@ -66,6 +75,22 @@ std::vector<Kernel> compileKernels(const std::vector<Integrator>& integrators, c
     return kernels;
 }
 
+/// The settings of all levers that were asked for: by the options, else by the scene file.
+LeverSettings askedLevers(const BakeOptions& options, const Scene& scene) {
+    LeverSettings asked = options.levers;
+    for (const auto& [lever, setting] : asked) requireSetting(lever, setting);
+    asked.insert(scene.render.accuracy.begin(), scene.render.accuracy.end());
+    return asked;
+}
+
+/// What the options and the levers make of what the scene calls for.
+EffectSet chosenEffects(EffectSet effects, const BakeOptions& options, const LeverSettings& asked) {
+    if (options.allEffects) includeAll(effects);
+    applyToEffects(asked, effects);
+    for (const std::string& name : options.without) removeEffect(effects, findEffect(name), options.force);
+    return effects;
+}
+
 /// Finds before the work what would keep its result from being written.
 void checkOutputs(const BakeOptions& options) {
     requireWritable(options.output);
@@ -94,25 +119,31 @@ void requireValid(const std::string& scene, const std::vector<uint8_t>& blob) {
 int bake(const BakeOptions& options) {
     const double start = nowMs();
     checkOutputs(options);
-    Diagnostics diagnostics;
+    Diagnostics own;
+    Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
     Scene scene = loadScene(options.scene, diagnostics);
+    const LeverSettings asked = askedLevers(options, scene);
+    applyToScene(asked, scene);
     if (options.onlyDefault) scene.render.integrators = {scene.render.integrator};
     const Geometry geometry = flatten(scene, diagnostics);
     const Bvh bvh = buildBvh(geometry, options.threads);
     const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
     const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, options.threads);
     const bool floatNodes = nodes.layout == MINIRT_NODES_FLOAT;
-    EffectSet effects = analyseEffects(scene, geometry, volumes, floatNodes, scene.render.tracesPaths());
-    EffectSet whitted = analyseEffects(scene, geometry, volumes, floatNodes, false);
-    if (options.allEffects) includeAll(effects), includeAll(whitted);
+    const auto effectsFor = [&](bool paths) {
+        return chosenEffects(analyseEffects(scene, geometry, volumes, floatNodes, paths), options, asked);
+    };
+    const EffectSet effects = effectsFor(scene.render.tracesPaths());
+    const EffectSet whitted = effectsFor(false);
     const std::vector<Kernel> kernels = compileKernels(scene.render.integrators, whitted, effects);
     const std::vector<uint8_t> blob = assembleBlob({scene, geometry, bvh, nodes, volumes, effects, kernels});
 
     requireValid(options.scene, blob);
 
-    for (const std::string& warning : diagnostics.warnings) std::cerr << warning << "\n";
+    for (const std::string& warning : own.warnings) std::cerr << warning << "\n";
     if (options.explain) {
         printEffects(effects);
+        printLevers(asked, scene);
         printVolumes(geometry, volumes);
     }
     if (!options.saveGlslDir.empty()) saveGlsl(options.saveGlslDir, kernels);

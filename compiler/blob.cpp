@@ -224,6 +224,7 @@ std::string explain(const BakedScene& baked) {
         json["effects"][effectInfo(static_cast<Effect>(i)).name] = {{"included", effects.choices[i].included},
                                                                     {"reason", effects.choices[i].reason}};
     }
+    for (const auto& [lever, setting] : effects.levers) json["levers"][lever] = setting;
     for (uint32_t body : volumes.order) json["objects"].push_back(geometry.bodies[body].name);
     for (const Displacement& pair : volumes.displacements) {
         json["nesting"].push_back(

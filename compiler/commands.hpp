@@ -3,6 +3,7 @@
 #include <string>
 
 #include "blob.hpp"
+#include "levers.hpp"
 
 namespace minirtc {
 
@@ -11,15 +12,29 @@ struct BakeOptions {
     std::string output;
     bool explain = false;
     bool allEffects = false;
-    bool onlyDefault = false;  // kernels of the scene's own integrator alone
+    std::vector<std::string> without;  // effects to leave out
+    bool force = false;                // also where the scene calls for them
+    LeverSettings levers;              // over what the scene file says
+    bool onlyDefault = false;          // kernels of the scene's own integrator alone
     LayoutChoice layout = LayoutChoice::automatic;
     unsigned threads = 0;     // 0: all cores
     std::string saveGlslDir;  // "": do not
     std::string statsFile;    // "": none
     bool quiet = false;
+    Diagnostics* diagnostics = nullptr;  // takes the warnings, which else go to stderr
 };
 
 int bake(const BakeOptions& options);
+
+/// What the scene of a file calls for, before any lever or option.
+EffectSet effectsOf(const std::string& sceneFile, Diagnostics& diagnostics);
+
+struct LeversOptions {
+    std::string scene;  // "": none
+    bool json = false;
+};
+
+int listLevers(const LeversOptions& options);
 
 struct InspectOptions {
     std::string blob;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "error.hpp"
+#include "json_fields.hpp"
 #include "shining.hpp"
+#include "text_file.hpp"
 
 namespace minirtc {
 namespace {
@@ -144,6 +147,7 @@ const EffectInfo& effectInfo(Effect effect) {
 
 EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes, bool paths) {
     EffectSet effects;
+    effects.paths = paths;
     for (size_t i = 0; i < kEffectCount; ++i) effects.choices[i].reason = kEffects[i].absent;
     std::set<uint32_t> seen;
     for (const Primitive& primitive : geometry.primitives) {
@@ -171,6 +175,26 @@ void includeAll(EffectSet& effects) {
             continue;
         callFor(effects, static_cast<Effect>(i), true, "asked for by --all-effects");
     }
+}
+
+Effect findEffect(const std::string& name) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < kEffectCount; ++i) {
+        if (kEffects[i].name == name) return static_cast<Effect>(i);
+        names.emplace_back(kEffects[i].name);
+    }
+    throw Error("there is no effect " + inQuotes(name), suggest(name, names));
+}
+
+void removeEffect(EffectSet& effects, Effect effect, bool force) {
+    const std::string name = effectInfo(effect).name;
+    EffectChoice& choice = effects[effect];
+    if (effect == Effect::floatNodes && choice.included)
+        throw Error("the effect 'float_nodes' is the layout of the hierarchy", "choose it with --layout");
+    if (choice.included && !force)
+        throw Error("the effect '" + name + "' is called for by " + choice.reason,
+                    "the picture would be another one without it; leave it out all the same with --force");
+    choice = {false, "left out by --without"};
 }
 
 }  // namespace minirtc

@@ -65,6 +65,8 @@ struct EffectChoice {
 struct EffectSet {
     std::array<EffectChoice, kEffectCount> choices;
     uint32_t volumeCapacity = 1;  // entries of a ray's list of volumes, where nesting is in
+    bool paths = false;           // for the path tracers too
+    LeverSettings levers;         // that are not at their default: the kernels go by them (levers.hpp)
     bool has(Effect effect) const { return choices[static_cast<size_t>(effect)].included; }
     EffectChoice& operator[](Effect effect) { return choices[static_cast<size_t>(effect)]; }
     const EffectChoice& operator[](Effect effect) const { return choices[static_cast<size_t>(effect)]; }
@@ -80,5 +82,11 @@ EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Vol
 
 /// Every effect, whether called for or not.
 void includeAll(EffectSet& effects);
+
+/// The effect of that name. Throws Error, which names the nearest one.
+Effect findEffect(const std::string& name);
+
+/// Leaves an effect out. Throws Error where the scene calls for it, unless `force`, and where it is a layout that the blob has.
+void removeEffect(EffectSet& effects, Effect effect, bool force);
 
 }  // namespace minirtc

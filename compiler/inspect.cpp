@@ -65,6 +65,9 @@ void print(const nlohmann::ordered_json& json) {
         std::cout << "kernel " << kernel["name"].get<std::string>() << ": " << kernel["spirv_bytes"] << " bytes of SPIR-V\n";
     for (const auto& [name, effect] : json["effects"].items())
         std::cout << (effect["included"] ? "in   " : "out  ") << name << ": " << effect["reason"].get<std::string>() << "\n";
+    if (!json.contains("levers")) return;
+    for (const auto& [lever, setting] : json["levers"].items())
+        std::cout << "set  " << lever << ": " << setting.get<std::string>() << "\n";
 }
 
 void printSpirv(const minirt_blob& blob) {

@@ -12,6 +12,7 @@
 #include <spirv-tools/optimizer.hpp>
 
 #include "error.hpp"
+#include "levers.hpp"
 #include "shader_library.hpp"
 
 namespace minirtc {
@@ -23,25 +24,20 @@ constexpr auto kToolsEnvironment = SPV_ENV_VULKAN_1_1;
 
 /// The order in which the parts of a kernel build on each other.
 const std::vector<std::string> kParts = {
-    "common/language.glsl",      "common/neighbours.glsl",
-    "common/numerics.glsl",      "common/pixel.glsl",
-    "common/patterns.glsl",      "bsdf/optics.glsl",
-    "bsdf/medium.glsl",          "bsdf/dispersion.glsl",
-    "sampling/random.glsl",      "media/volumes.glsl",
-    "traverse/box.glsl",         "traverse/triangle.glsl",
-    "traverse/sphere.glsl",      "layout",
-    "common/frame.glsl",         "common/fetch.glsl",
-    "traverse/nodes.glsl",       "effects/images.glsl",
-    "effects/background.glsl",   "effects/textures.glsl",
-    "common/materials.glsl",     "effects/alpha.glsl",
-    "effects/spheres.glsl",      "traverse/traverse.glsl",
-    "common/suspend.glsl",       "effects/smooth_normals.glsl",
-    "effects/surface_maps.glsl", "effects/checker.glsl",
-    "effects/nesting.glsl",      "effects/media.glsl",
-    "effects/dispersion.glsl",   "common/surface.glsl",
-    "effects/lights.glsl",       "effects/scatter.glsl",
-    "effects/shadows.glsl",      "effects/emission.glsl",
-    "common/encounter.glsl",
+    "common/language.glsl",        "common/neighbours.glsl",    "common/numerics.glsl",
+    "common/pixel.glsl",           "common/patterns.glsl",      "bsdf/optics.glsl",
+    "levers/fresnel.glsl",         "bsdf/medium.glsl",          "bsdf/dispersion.glsl",
+    "sampling/random.glsl",        "media/volumes.glsl",        "traverse/box.glsl",
+    "levers/double_begin.glsl",    "traverse/triangle.glsl",    "levers/intersection.glsl",
+    "traverse/sphere.glsl",        "levers/double_end.glsl",    "layout",
+    "common/frame.glsl",           "levers/ray_offset.glsl",    "common/fetch.glsl",
+    "traverse/nodes.glsl",         "effects/images.glsl",       "effects/background.glsl",
+    "effects/textures.glsl",       "common/materials.glsl",     "effects/alpha.glsl",
+    "effects/spheres.glsl",        "traverse/traverse.glsl",    "common/suspend.glsl",
+    "effects/smooth_normals.glsl", "effects/surface_maps.glsl", "effects/checker.glsl",
+    "effects/nesting.glsl",        "effects/media.glsl",        "effects/dispersion.glsl",
+    "common/surface.glsl",         "effects/lights.glsl",       "effects/scatter.glsl",
+    "effects/shadows.glsl",        "effects/emission.glsl",     "common/encounter.glsl",
 };
 
 /// What the path tracers have beyond them.
@@ -133,6 +129,7 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
         const auto effect = static_cast<Effect>(i);
         if (effects.has(effect)) source += std::string("#define ") + effectInfo(effect).define + "\n";
     }
+    for (const std::string& define : definesOf(effects.levers)) source += "#define " + define + "\n";
     source += "#define VOLUME_CAPACITY " + std::to_string(effects.volumeCapacity) + "\n";
     std::vector<std::string> parts = kParts;
     if (name != "whitted") parts.insert(parts.end(), kPathParts.begin(), kPathParts.end());

@@ -20,7 +20,7 @@ std::string oneLineFailure(const CLI::App* app, const CLI::Error& error) {
     return command + ": " + error.what() + "; see " + command + " --help\n";
 }
 
-void addBake(CLI::App& app, BakeOptions& options) {
+void addBake(CLI::App& app, BakeOptions& options, std::vector<std::string>& settings) {
     CLI::App* bake = app.add_subcommand("bake", "Bake a scene file into a blob");
     bake->footer(
         "Examples:\n  minirtc bake still_life.json -o still_life.mrt\n  minirtc bake still_life.json -o still_life.mrt "
@@ -31,6 +31,10 @@ void addBake(CLI::App& app, BakeOptions& options) {
     bake->add_flag("--only-default", options.onlyDefault,
                    "Kernels of the scene's own integrator alone (default: of all that can draw it)");
     bake->add_flag("--all-effects", options.allEffects, "Compile every effect into the kernels, called for or not");
+    bake->add_option("--without", options.without, "Leave an effect out that the scene does not call for; repeatable")
+        ->allow_extra_args(false);
+    bake->add_flag("--force", options.force, "With --without: also where the scene calls for it, for another picture");
+    bake->add_option("--set", settings, "LEVER=SETTING of accuracy, see minirtc levers; repeatable")->allow_extra_args(false);
     bake->add_option_function<std::string>(
             "--layout", [&](const std::string& name) { options.layout = layouts().at(name); },
             "Boxes of the hierarchy (default: auto)")
@@ -40,6 +44,13 @@ void addBake(CLI::App& app, BakeOptions& options) {
     bake->add_option("--save-glsl", options.saveGlslDir, "Folder for the kernels' GLSL");
     bake->add_option("--stats", options.statsFile, "Write figures as JSON");
     bake->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+}
+
+void addLevers(CLI::App& app, LeversOptions& options) {
+    CLI::App* levers = app.add_subcommand("levers", "List the accuracy levers, and which of them matter to a scene");
+    levers->footer("Examples:\n  minirtc levers\n  minirtc levers still_life.json --json");
+    levers->add_option("scene", options.scene, "Scene file (.json)");
+    levers->add_flag("--json", options.json, "As JSON");
 }
 
 void addInspect(CLI::App& app, InspectOptions& options) {
@@ -59,9 +70,12 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     BakeOptions bakeOptions;
     InspectOptions inspectOptions;
+    LeversOptions leversOptions;
+    std::vector<std::string> settings;
     std::string blob;
-    addBake(app, bakeOptions);
+    addBake(app, bakeOptions, settings);
     addInspect(app, inspectOptions);
+    addLevers(app, leversOptions);
     CLI::App* validate = app.add_subcommand("validate", "Check a blob completely");
     validate->footer("Example:\n  minirtc validate still_life.mrt");
     validate->add_option("blob", blob, "Blob (.mrt)")->required();
@@ -69,8 +83,10 @@ int main(int argc, char** argv) {
     devices->footer("Example:\n  minirtc devices");
     CLI11_PARSE(app, argc, argv);
     try {
+        for (const std::string& setting : settings) readSetting(setting, bakeOptions.levers);
         if (app.got_subcommand("bake")) return bake(bakeOptions);
         if (app.got_subcommand("inspect")) return inspect(inspectOptions);
+        if (app.got_subcommand("levers")) return listLevers(leversOptions);
         if (app.got_subcommand(validate)) return validateBlob(blob);
         if (app.got_subcommand(devices)) return listDevices();
     } catch (const std::exception& error) {

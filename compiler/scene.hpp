@@ -199,6 +199,9 @@ enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2 };
 /// How much the samples of a pixel count by where they lie.
 enum class Filter : uint32_t { box = 0, tent = 1, gaussian = 2 };
 
+/// Settings of accuracy levers (levers.hpp) that were asked for, by the name of the lever.
+using LeverSettings = std::map<std::string, std::string>;
+
 struct RenderDefaults {
     Integrator integrator = Integrator::whitted;
     std::vector<Integrator> integrators = {Integrator::whitted, Integrator::path, Integrator::wavefront};  // that the blob is for
@@ -210,6 +213,7 @@ struct RenderDefaults {
     uint32_t height = 768;
     Shadows shadows = Shadows::byModel;
     DispersionMode dispersionMode = DispersionMode::rgb;
+    LeverSettings accuracy;
 
     bool uses(Integrator one) const { return std::find(integrators.begin(), integrators.end(), one) != integrators.end(); }
     bool tracesPaths() const { return uses(Integrator::path) || uses(Integrator::wavefront); }

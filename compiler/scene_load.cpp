@@ -3,6 +3,7 @@
 #include <map>
 
 #include "json_fields.hpp"
+#include "levers.hpp"
 #include "scene.hpp"
 #include "scene_lights.hpp"
 #include "scene_materials.hpp"
@@ -75,11 +76,22 @@ void readIntegrators(const SceneFile& file, const JsonObject& object, RenderDefa
         object.fail("integrator", "'integrator' is none of 'integrators'", "add it there or name another one");
 }
 
+/// Settings of the accuracy levers that belong to baking.
+LeverSettings readAccuracy(SceneFile& file, const JsonValue& value) {
+    const JsonObject object(file, value, "the accuracy section", bakeLeverNames());
+    LeverSettings settings;
+    for (const JsonMember& member : value.members)
+        settings[member.key] = object.word(member.key, "", settingNames(findLever(member.key)));
+    return settings;
+}
+
 RenderDefaults readRender(SceneFile& file, const JsonValue& value) {
-    const JsonObject object(file, value, "the render section",
-                            {"integrator", "integrators", "maxDepth", "spp", "size", "shadows", "dispersionMode", "filter"});
+    const JsonObject object(
+        file, value, "the render section",
+        {"integrator", "integrators", "maxDepth", "spp", "size", "shadows", "dispersionMode", "filter", "accuracy"});
     RenderDefaults render;
     readIntegrators(file, object, render);
+    if (const JsonValue* accuracy = object.find("accuracy")) render.accuracy = readAccuracy(file, *accuracy);
     const std::string filter = object.word("filter", "box", {"box", "tent", "gaussian"});
     render.filter = filter == "box" ? Filter::box : filter == "tent" ? Filter::tent : Filter::gaussian;
     const std::string shadows = object.word("shadows", "", {"transmissive", "opaque"});

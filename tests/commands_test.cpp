@@ -19,8 +19,8 @@ using test::Words;
 namespace fs = std::filesystem;
 
 const Words kCommands[] = {
-    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"},
-    {MINIRTC},         {MINIRT_RENDER},      {MINIRT_COMPARE},      {MINIRT_HELLO},
+    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"}, {MINIRTC, "levers"},
+    {MINIRTC},         {MINIRT_RENDER},      {MINIRT_COMPARE},      {MINIRT_HELLO},       {MINIRT_COST},
 #ifdef MINIRT_VIEWER
     {MINIRT_VIEWER},
 #endif
@@ -125,6 +125,47 @@ TEST_CASE("wrong usage is refused in one line that leads to the help") {
     checkRefused({MINIRT_HELLO}, {"usage"});
 }
 
+TEST_CASE("levers and effects are chosen by name, and the nearest name is told") {
+    const test::TemporaryDir dir;
+    const std::string blob = (dir.path() / "a.mrt").string();
+    const auto bake = [&](const Words& options) {
+        return withArguments({MINIRTC, "bake", sampleScene(), "-o", blob, "--only-default"}, options);
+    };
+    checkRefused(bake({"--set", "fresnl=none"}), {"'fresnl'", "did you mean 'fresnel'?"});
+    checkRefused(bake({"--set", "fresnel=shlick"}), {"'shlick'", "did you mean 'schlick'?"});
+    checkRefused(bake({"--set", "fresnel"}), {"LEVER=SETTING", "minirtc levers"});
+    checkRefused(bake({"--set", "depth=3"}), {"--max-depth"});
+    checkRefused(bake({"--without", "sphere"}), {"'sphere'", "did you mean 'spheres'?"});
+    checkRefused(bake({"--without", "point_lights"}), {"'point_lights'", "light 0", "--force"});
+    CHECK_FALSE(fs::exists(blob));
+    CHECK(run(bake({"--without", "lens", "--without", "textures"})).exitCode == 0);
+    const Outcome forced = run(bake({"--without", "point_lights", "--force", "--set", "fresnel=none", "--set", "fresnel=schlick",
+                                     "--set", "normals=flat", "--explain"}));
+    CHECK(forced.exitCode == 0);
+    CHECK(contains(forced.out, "out  point_lights: left out by --without"));
+    CHECK(contains(forced.out, "set  fresnel: schlick, by default exact"));
+    CHECK(contains(forced.out, "set  normals: flat, by default smooth"));
+    CHECK_FALSE(contains(forced.out, "set  intersection"));
+    CHECK(contains(run({MINIRTC, "inspect", blob}).out, "set  fresnel: schlick\n"));
+    const nlohmann::json inspected = nlohmann::json::parse(run({MINIRTC, "inspect", blob, "--json"}).out);
+    CHECK(inspected["levers"] == nlohmann::json{{"fresnel", "schlick"}, {"normals", "flat"}});
+}
+
+TEST_CASE("the list of levers says which of them matter to a scene") {
+    const Outcome list = run({MINIRTC, "levers"});
+    CHECK(list.exitCode == 0);
+    CHECK(contains(list.out, "watertight (default)"));
+    CHECK_FALSE(contains(list.out, "matters here"));
+    const nlohmann::json levers = nlohmann::json::parse(run({MINIRTC, "levers", sampleScene(), "--json"}).out);
+    REQUIRE(levers.size() == 12);
+    for (const nlohmann::json& lever : levers) {
+        checkHasKeys(lever, {"/name", "/when", "/what", "/default", "/settings", "/applies", "/reason"});
+        if (lever["name"] == "fresnel") CHECK(lever["applies"] == false);
+        if (lever["name"] == "intersection") CHECK(lever["applies"] == true);
+    }
+    checkRefused({MINIRTC, "levers", "absent.json"}, {"absent.json"});
+}
+
 TEST_CASE("options out of range are refused before any work and leave no file") {
     const test::TemporaryDir dir;
     const std::string blob = bakeSample(dir);
@@ -146,6 +187,8 @@ TEST_CASE("options out of range are refused before any work and leave no file") 
                  {"--spp", "0", "1 to"},
                  {"--spp", "many", "--spp"},
                  {"--max-depth", "256", "255"},
+                 {"--cutoff", "-1", "--cutoff"},
+                 {"--cutoff", "2", "--cutoff"},
                  {"--integrator", "fast", "whitted"},
                  {"--integrator", "1", "whitted"},
                  {"--light-sampling", "best", "surfaces"},

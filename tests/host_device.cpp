@@ -133,7 +133,7 @@ HostDevice::~HostDevice() {
 }
 
 minirt_host_device HostDevice::desc() const {
-    return {vkGetInstanceProcAddr, instance_, physicalDevice_, device_, queue_, family_};
+    return {vkGetInstanceProcAddr, instance_, physicalDevice_, device_, queue_, family_, 0};
 }
 
 VkDeviceMemory HostDevice::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties) const {

@@ -166,6 +166,10 @@ void limitTexels(minirt_context* context, uint32_t texels) {
     context->limits.maxTexelBufferElements = texels;
 }
 
+void takeFloat64(minirt_context* context) {
+    context->float64 = false;
+}
+
 void loseDevice(minirt_context* context) {
     context->lost = true;
 }

@@ -19,15 +19,20 @@ bool Picture::operator==(const Picture& other) const {
            std::memcmp(rgba.data(), other.rgba.data(), rgba.size() * sizeof(float)) == 0;
 }
 
-std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json, minirtc::LayoutChoice layout, Kernels kernels) {
-    minirtc::BakeOptions options;
-    options.scene = dir.write("scene.json", json).string();
-    options.output = (dir.path() / "scene.mrt").string();
-    options.layout = layout;
-    options.onlyDefault = kernels == Kernels::ofDefault;
+std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json, const std::string& name,
+                                minirtc::BakeOptions options) {
+    options.scene = dir.write(name + ".json", json).string();
+    options.output = (dir.path() / (name + ".mrt")).string();
     options.quiet = true;
     minirtc::bake(options);
     return options.output;
+}
+
+std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json, minirtc::LayoutChoice layout, Kernels kernels) {
+    minirtc::BakeOptions options;
+    options.layout = layout;
+    options.onlyDefault = kernels == Kernels::ofDefault;
+    return bakeScene(dir, json, "scene", options);
 }
 
 LoadedScene::LoadedScene(const GpuContext& gpu, const std::filesystem::path& blob) : gpu_(gpu) {
@@ -64,13 +69,9 @@ Picture renderScene(const GpuContext& gpu, const std::string& json) {
 
 Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, const std::string& json) {
     minirtc::BakeOptions options;
-    options.scene = dir.write("all.json", json).string();
-    options.output = (dir.path() / "all.mrt").string();
     options.allEffects = true;
     options.onlyDefault = true;
-    options.quiet = true;
-    minirtc::bake(options);
-    return LoadedScene(gpu, options.output).render();
+    return LoadedScene(gpu, bakeScene(dir, json, "all", options)).render();
 }
 
 }  // namespace test

@@ -31,6 +31,10 @@ std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json
                                 minirtc::LayoutChoice layout = minirtc::LayoutChoice::automatic,
                                 Kernels kernels = Kernels::ofDefault);
 
+/// The same with all options of the command but the names of the files, of which the blob's is `name`.mrt.
+std::filesystem::path bakeScene(const TemporaryDir& dir, const std::string& json, const std::string& name,
+                                minirtc::BakeOptions options);
+
 /// A blob on a device. A failure of the runtime is a std::runtime_error with its message.
 class LoadedScene {
 public:

@@ -20,6 +20,9 @@ void denyBallots(minirt_context* context);
 /// As if the device took no more in a texel buffer.
 void limitTexels(minirt_context* context, uint32_t texels);
 
+/// As if the device had no doubles.
+void takeFloat64(minirt_context* context);
+
 /// As if the driver had reported the loss of the device.
 void loseDevice(minirt_context* context);
 

@@ -32,19 +32,12 @@ std::vector<float> rgbOf(const Picture& picture) {
     return rgb;
 }
 
-std::vector<uint8_t> encodePng(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb) {
-    std::vector<uint8_t> bytes;
-    stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
-                           static_cast<int>(width) * 3);
-    return bytes;
-}
-
 std::vector<uint8_t> encodeSrgbPng(const Picture& picture) {
     std::vector<uint8_t> rgb;
     rgb.reserve(picture.rgba.size() / 4 * 3);
     for (size_t i = 0; i < picture.rgba.size(); i += 4)
         for (size_t k = 0; k < 3; ++k) rgb.push_back(srgbByte(picture.rgba[i + k]));
-    return encodePng(picture.width, picture.height, rgb);
+    return pngBytes(picture.width, picture.height, rgb);
 }
 
 std::vector<uint8_t> encodeHdr(const Picture& picture) {
@@ -109,6 +102,13 @@ std::vector<uint8_t> encodeExr(const Picture& picture, std::string& problem) {
 
 }  // namespace
 
+std::vector<uint8_t> pngBytes(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb) {
+    std::vector<uint8_t> bytes;
+    stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
+                           static_cast<int>(width) * 3);
+    return bytes;
+}
+
 std::string writeWhole(const std::string& path, const std::vector<uint8_t>& bytes) {
     std::string temporary = path + ".XXXXXX";
     const int descriptor = mkstemp(temporary.data());
@@ -149,7 +149,7 @@ std::string writePicture(const std::string& path, const Picture& picture) {
 }
 
 std::string writePng(const std::string& path, uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb) {
-    const std::vector<uint8_t> bytes = encodePng(width, height, rgb);
+    const std::vector<uint8_t> bytes = pngBytes(width, height, rgb);
     return bytes.empty() ? path + ": the picture cannot be encoded as PNG" : writeWhole(path, bytes);
 }
 

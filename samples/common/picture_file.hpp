@@ -24,6 +24,9 @@ std::string readPfm(const std::string& path, Picture& picture);
 /// The sRGB byte of a linear value; NaN is 0.
 uint8_t srgbByte(float linear);
 
+/// width * height * 3 bytes, top row first, as they are, as a PNG; empty where there is no memory.
+std::vector<uint8_t> pngBytes(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb);
+
 /// Writes width * height * 3 bytes, top row first, as they are. Returns "" or what went wrong.
 std::string writePng(const std::string& path, uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb);
 

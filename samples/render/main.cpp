@@ -1,6 +1,7 @@
 // minirt-render: a blob to a picture file.
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "../common/command_line.hpp"
 #include "../common/device.hpp"
 #include "../common/picture_file.hpp"
+#include "../cost/probe.hpp"
 
 namespace {
 
@@ -21,11 +23,13 @@ struct Options {
     std::string stats;
     uint32_t spp = 0;
     int maxDepth = -1;
+    float cutoff = -1;  // below 0: the scene's
     minirt_integrator integrator = MINIRT_INTEGRATOR_SCENE;
     uint32_t lightSampling = MINIRT_LIGHT_SAMPLING_MIS;
     uint32_t seed = 0;
     float clamp = 0;        // 0: none
     double timeBudget = 0;  // seconds, 0: none
+    double budgetMs = 0;    // of the device's time, 0: none
     bool validation = false;
 };
 
@@ -38,6 +42,10 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--size", o.size, "WIDTHxHEIGHT (default: the scene's)");
     app.add_option("--spp", o.spp, "Samples a pixel (default: the scene's)")->check(CLI::Range(1u, 1u << 24));
     app.add_option("--max-depth", o.maxDepth, "Bounces after the camera ray (default: the scene's)")->check(CLI::Range(0, 255));
+    app.add_option(
+           "--cutoff", o.cutoff,
+           "Of Whitted's tracer: rays end that carry no more than this share of the light; 0 keeps all (default: the scene's)")
+        ->check(CLI::Range(0.0f, 1.0f));
     const std::map<std::string, minirt_integrator> integrators = {
         {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
     app.add_option_function<std::string>(
@@ -58,7 +66,16 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--clamp", o.clamp,
                    "Of path tracers: most that one sample may add to a pixel, which darkens (default: no limit)")
         ->check(CLI::PositiveNumber);
+    CLI::Option* const budget =
+        app.add_option("--budget-ms", o.budgetMs,
+                       "Choose samples, depth, cut-off or light sampling and integrator for the least error within so much of "
+                       "the device's "
+                       "time, from measurements that take some multiples of it, and say what was given up")
+            ->check(CLI::PositiveNumber);
+    for (const char* chosen : {"--spp", "--max-depth", "--cutoff", "--integrator", "--light-sampling"})
+        budget->excludes(app.get_option(chosen));
     app.add_option("--samples", o.samples, "Render samples A up to, not including, B: A:B");
+    budget->excludes(app.get_option("--samples"));
     app.add_option("--region", o.region, "Render only this part: X,Y,WIDTHxHEIGHT");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
     app.add_option("--time-budget", o.timeBudget, "Stop after this many seconds with the samples that are there")
@@ -96,6 +113,7 @@ minirt_render_desc renderDesc(const Options& o) {
     desc.light_sampling = o.lightSampling;
     desc.seed = o.seed;
     desc.clamp = o.clamp;
+    if (o.cutoff >= 0) desc.throughput_cutoff = o.cutoff > 0 ? o.cutoff : -1.0f;  // the runtime's 0 is the scene's
     return desc;
 }
 
@@ -154,6 +172,19 @@ void writeStats(const std::string& path, const minirt_device_info& device, const
     if (!problem.empty()) throw std::runtime_error(problem);
 }
 
+/// Puts what --budget-ms chooses into `desc`, and prints it.
+void applyBudget(Device& device, const Options& options, const Picture& picture, minirt_render_desc& desc) {
+    const cost::ProbedBudget found = cost::probeBudget(device, options.blob, picture.width, picture.height, options.budgetMs);
+    const minirt_render_desc chosen = cost::renderDesc(found.levers, found.choice.configuration);
+    desc.samples = found.choice.samples;
+    desc.max_depth = chosen.max_depth;
+    desc.integrator = chosen.integrator;
+    desc.light_sampling = chosen.light_sampling;
+    desc.throughput_cutoff = chosen.throughput_cutoff;
+    std::cout << "Chosen: " << choiceWords(found.levers, found.choice) << "; about " << std::lround(found.choice.ms) << " ms. "
+              << givenUpSentence(found.levers, found.choice) << "\n";
+}
+
 void render(const Options& options) {
     if (!isPictureName(options.output))
         throw UsageError(options.output + ": unknown kind of picture; use .png, .exr, .hdr or .pfm");
@@ -170,6 +201,7 @@ void render(const Options& options) {
     picture.width = desc.width ? desc.width : sceneDesc.width;
     picture.height = desc.height ? desc.height : sceneDesc.height;
     picture.rgba.resize(size_t{picture.width} * picture.height * 4);
+    if (options.budgetMs > 0) applyBudget(device, options, picture, desc);
     ProgressBar bar(options.timeBudget);
     minirt_stats stats = {};
     desc.progress = ProgressBar::update;
@@ -181,6 +213,7 @@ void render(const Options& options) {
         device.require(result, options.blob);  // cancelled: the time budget is spent, the samples are fine
     const std::string problem = writePicture(options.output, picture);
     if (!problem.empty()) throw std::runtime_error(problem);
+    if (options.budgetMs > 0) std::cout << "Rendered in " << std::lround(stats.gpu_ms) << " ms of the device's time.\n";
     if (!options.stats.empty()) writeStats(options.stats, device.info(), stats);
 }
 

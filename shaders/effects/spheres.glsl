@@ -16,7 +16,7 @@ PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear sh
     TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, row1.xyz, row2.xyz, tMax);
     if (triangle.hit && !isSphere(row0) && passesAlpha(slot, row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
     SphereHit sphere = intersectSphere(origin, direction, row0.xyz, row1.x, tMax);
-    return isSphere(row0) ? PrimitiveHit(sphere.hit, sphere.t) : PrimitiveHit(triangle.hit, triangle.t);
+    return isSphere(row0) ? PrimitiveHit(sphere.hit, float(sphere.t)) : PrimitiveHit(triangle.hit, float(triangle.t));
 }
 
 /// Puts the hit's point on the sphere where the primitive is one.
@@ -37,7 +37,7 @@ PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear sh
     vec4 row2 = primitiveRow(slot, 2u);
     TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, primitiveRow(slot, 1u).xyz, row2.xyz, tMax);
     if (triangle.hit && passesAlpha(slot, row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
-    return PrimitiveHit(triangle.hit, triangle.t);
+    return PrimitiveHit(triangle.hit, float(triangle.t));
 }
 
 void refineSphere(vec4 row0, vec4 row1, vec3 origin, vec3 direction, float t, inout SurfacePoint point) {}

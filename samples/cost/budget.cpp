@@ -1,0 +1,96 @@
+#include "budget.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cost {
+namespace {
+
+/// The part of the error that more samples remove.
+double noiseOf(const Measurement& m, const Configuration& own) {
+    return std::max(m.error.relMse - systematicError(m, own), 1e-12);
+}
+
+/// How fast noise falls with the samples: the slope of a line through what the lever of the samples did, in logarithms. 1: as their number.
+double falloff(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements) {
+    const size_t samples = findLever(levers, LeverKind::samples);
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (const Measurement& m : measurements) {
+        if (with(m.configuration, samples, levers[samples].initial) != initialConfiguration(levers)) continue;
+        const double u = std::log(samplesOf(levers, m.configuration));
+        const double v = std::log(noiseOf(m, initialConfiguration(levers)));
+        n += 1, x += u, y += v, xx += u * u, xy += u * v;
+    }
+    const double spread = n * xx - x * x;
+    return spread > 0 ? std::clamp(-(n * xy - x * y) / spread, 0.25, 2.0) : 1.0;
+}
+
+double msPerSample(const std::vector<Lever>& levers, const Measurement& m, double pixelRatio) {
+    return m.ms.median / samplesOf(levers, m.configuration) * pixelRatio;
+}
+
+/// Both path tracers draw the same.
+bool samePicture(const Lever& lever, size_t setting) {
+    return lever.kind == LeverKind::integrator && lever.settings[setting].value != MINIRT_INTEGRATOR_WHITTED;
+}
+
+std::string samplesWords(uint32_t samples) {
+    return std::to_string(samples) + (samples == 1 ? " sample a pixel" : " samples a pixel");
+}
+
+}  // namespace
+
+std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
+                                         const std::vector<Measurement>& measurements, double pixelRatio) {
+    constexpr double kMostSamples = 1 << 16;
+    const Configuration own = initialConfiguration(levers);
+    const double slope = falloff(levers, measurements);
+    std::optional<BudgetChoice> best;
+    for (const Measurement& m : measurements) {
+        const double perSample = msPerSample(levers, m, pixelRatio);
+        const double samples = std::min(std::floor(ms / perSample), kMostSamples);
+        if (samples < 1) continue;
+        const double error =
+            systematicError(m, own) + noiseOf(m, own) * std::pow(samplesOf(levers, m.configuration) / samples, slope);
+        if (!best || error < best->relMse) best = {m.configuration, static_cast<uint32_t>(samples), samples * perSample, error};
+    }
+    return best;
+}
+
+double fastestMs(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, double pixelRatio) {
+    double fastest = std::numeric_limits<double>::infinity();
+    for (const Measurement& m : measurements) fastest = std::min(fastest, msPerSample(levers, m, pixelRatio));
+    return fastest;
+}
+
+std::string choiceWords(const std::vector<Lever>& levers, const BudgetChoice& choice) {
+    std::string text = samplesWords(choice.samples);
+    for (size_t i = 0; i < levers.size(); ++i)
+        if (levers[i].kind != LeverKind::samples && choice.configuration[i] != levers[i].initial)
+            text += ", " + levers[i].settings[choice.configuration[i]].words;
+    return text;
+}
+
+std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetChoice& choice) {
+    std::vector<std::string> lost;
+    for (size_t i = 0; i < levers.size(); ++i) {
+        const Setting& own = levers[i].settings[levers[i].initial];
+        if (levers[i].kind == LeverKind::samples) {
+            if (choice.samples < own.value) lost.push_back(samplesWords(choice.samples) + " instead of " + own.name);
+        } else if (choice.configuration[i] < levers[i].initial && !samePicture(levers[i], choice.configuration[i])) {
+            lost.push_back(levers[i].settings[choice.configuration[i]].words + " instead of " + own.words);
+        }
+    }
+    return lost;
+}
+
+std::string givenUpSentence(const std::vector<Lever>& levers, const BudgetChoice& choice) {
+    const std::vector<std::string> lost = givenUp(levers, choice);
+    if (lost.empty()) return "Nothing is given up.";
+    std::string text = "Given up: ";
+    for (size_t i = 0; i < lost.size(); ++i) text += (i ? ", " : "") + lost[i];
+    return text + ".";
+}
+
+}  // namespace cost

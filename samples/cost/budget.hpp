@@ -1,0 +1,34 @@
+// The most accurate settings that fit a time.
+#pragma once
+#include <optional>
+
+#include "measure.hpp"
+
+namespace cost {
+
+struct BudgetChoice {
+    Configuration configuration;  // but for the samples
+    uint32_t samples = 0;
+    double ms = 0;      // expected, of a picture as large as the measured ones times `pixelRatio`
+    double relMse = 0;  // expected
+};
+
+/// Of all measured configurations, each with as many samples as fit `ms`, the one with the least error expected: time grows with the samples, the
+/// bias stays, the rest falls with a power of the samples that the lever of the samples shows. `pixelRatio`: pixels of the picture that is wanted over
+/// those of the measured ones. Nothing where not even one sample fits.
+std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
+                                         const std::vector<Measurement>& measurements, double pixelRatio);
+
+/// Milliseconds of one sample with the fastest configuration.
+double fastestMs(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, double pixelRatio);
+
+/// "12 samples a pixel, 8 bounces": the samples, and what differs from the scene's own settings.
+std::string choiceWords(const std::vector<Lever>& levers, const BudgetChoice& choice);
+
+/// What a choice gives up: "8 bounces instead of 16" for each lever under its own setting; the samples likewise. Empty: nothing.
+std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetChoice& choice);
+
+/// The same in a sentence.
+std::string givenUpSentence(const std::vector<Lever>& levers, const BudgetChoice& choice);
+
+}  // namespace cost

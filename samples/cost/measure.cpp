@@ -1,0 +1,185 @@
+#include "measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace cost {
+namespace {
+
+/// Seeds of the reference are apart from those of the rounds.
+constexpr uint32_t kReferenceSeed = 1u << 20;
+
+/// The reference's samples of Whitted's tracer are none of those that are judged by it. A power of two, as the sequence asks for.
+constexpr uint32_t kReferenceFirstSample = 1u << 14;
+
+/// Fewer say nothing about how far times spread.
+constexpr uint32_t kLeastRounds = 3;
+
+uint32_t floorToPowerOfTwo(double value) {
+    uint32_t power = 1;
+    while (power < (1u << 20) && 2.0 * power <= value) power *= 2;
+    return power;
+}
+
+void accumulate(Picture& sum, const Picture& picture) {
+    if (sum.rgba.empty()) {
+        sum = picture;
+        return;
+    }
+    for (size_t i = 0; i < sum.rgba.size(); ++i) sum.rgba[i] += picture.rgba[i];
+}
+
+Picture scaled(Picture picture, float factor) {
+    for (float& value : picture.rgba) value *= factor;
+    return picture;
+}
+
+}  // namespace
+
+/// What the rounds of a configuration leave.
+struct Measurer::Tally {
+    std::vector<double> ms;
+    std::vector<double> relMse;
+    Errors errors;      // of all rounds, summed
+    Picture even, odd;  // sums of the pictures of these rounds
+
+    /// The means of the even and of the odd rounds; of a single round twice that.
+    std::pair<Picture, Picture> halves() const {
+        const size_t odds = ms.size() / 2;
+        const Picture mean = scaled(even, 1.0f / static_cast<float>(ms.size() - odds));
+        return {mean, odds ? scaled(odd, 1.0f / static_cast<float>(odds)) : mean};
+    }
+};
+
+double systematicError(const Measurement& m, const Configuration& own) {
+    if (m.bias.isSignificant()) return m.bias.value;
+    const bool coarser = !std::equal(own.begin(), own.end(), m.configuration.begin(), [](size_t a, size_t b) { return a <= b; });
+    return coarser && m.shift.isSignificant() ? m.shift.value : 0;
+}
+
+Picture Measurer::render(const Configuration& configuration, uint32_t seed, uint32_t firstSample, uint32_t samples, double& ms) {
+    minirt_render_desc desc = renderDesc(scenes_.levers(), configuration);
+    desc.width = width_;
+    desc.height = height_;
+    desc.seed = seed;
+    desc.first_sample = firstSample;
+    desc.samples = samples;
+    minirt_stats stats = {};
+    desc.stats = &stats;
+    Picture picture{width_, height_, std::vector<float>(size_t{width_} * height_ * 4)};
+    scenes_.device().require(minirt_render(scenes_.load(configuration).scene, &desc, picture.rgba.data()), "");
+    ms = stats.gpu_ms;
+    pipelineMs_[configuration] = stats.pipeline_ms;
+    return picture;
+}
+
+double Measurer::warmUp(const Configuration& configuration) {
+    double ms = 0;
+    try {
+        render(configuration, 0, 0, 1, ms);
+        render(configuration, 0, 0, 1, ms);
+    } catch (const std::exception& error) {
+        failures_.push_back({configuration, error.what()});
+        return 0;
+    }
+    return ms;
+}
+
+void Measurer::makeReference(const Configuration& configuration, double seconds, uint32_t least) {
+    constexpr uint32_t kMost = 1u << 13;
+    const double msPerSample = warmUp(configuration);
+    if (msPerSample <= 0) throw std::runtime_error("the reference cannot be rendered: " + failures_.back().reason);
+    const uint32_t half = std::clamp(floorToPowerOfTwo(seconds * 500 / msPerSample), least, kMost);
+    const size_t integrator = findLever(scenes_.levers(), LeverKind::integrator);
+    reference_.configuration = configuration;
+    reference_.samples = 2 * half;
+    reference_.random = scenes_.levers()[integrator].settings[configuration[integrator]].value != MINIRT_INTEGRATOR_WHITTED;
+    double ms = 0;
+    progress_.show("reference", 0, 2);
+    reference_.firstHalf = render(configuration, kReferenceSeed, kReferenceFirstSample, half, ms);
+    progress_.show("reference", 1, 2);
+    const uint32_t second = kReferenceFirstSample + (reference_.random ? 0 : half);
+    reference_.secondHalf = render(configuration, kReferenceSeed + 1, second, half, ms);
+    reference_.mean = meanOf(reference_.firstHalf, reference_.secondHalf);
+    reference_.relMse = relMseOfMean(reference_.firstHalf, reference_.secondHalf);
+}
+
+const Picture& Measurer::accurateAt(uint32_t samples) {
+    Picture& picture = reference_.atSamples[samples];
+    double ms = 0;
+    if (picture.rgba.empty()) picture = render(reference_.configuration, 0, 0, samples, ms);
+    return picture;
+}
+
+void Measurer::add(Tally& tally, const Configuration& configuration, uint32_t round) {
+    double ms = 0;
+    const Picture picture = render(configuration, round, 0, samplesOf(scenes_.levers(), configuration), ms);
+    tally.ms.push_back(ms);
+    if (!reference_.random && round > 0) {  // the same picture again
+        tally.relMse.push_back(tally.relMse.front());
+        return;
+    }
+    const Errors errors = compare(picture, reference_.mean);
+    tally.relMse.push_back(errors.relMse);
+    tally.errors.wrongPixels += errors.wrongPixels;
+    tally.errors.ofPixels.resize(errors.ofPixels.size());
+    for (size_t p = 0; p < errors.ofPixels.size(); ++p) tally.errors.ofPixels[p] += errors.ofPixels[p];
+    tally.errors.largest = std::max(tally.errors.largest, errors.largest);
+    accumulate(round % 2 ? tally.odd : tally.even, picture);
+}
+
+Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Configuration& configuration) {
+    Measurement m;
+    m.configuration = configuration;
+    m.repeats = static_cast<uint32_t>(tally.ms.size());
+    m.ms = spreadOf(tally.ms);
+    std::vector<double> slowdowns;
+    for (size_t i = 0; i < tally.ms.size(); ++i) slowdowns.push_back(tally.ms[i] / own.ms[i]);
+    m.slowdown = spreadOf(slowdowns);
+    m.relMse = spreadOf(tally.relMse);
+    const uint32_t pictures = reference_.random ? m.repeats : 1;
+    m.error = tally.errors;
+    m.error.wrongPixels /= pictures;
+    for (float& error : m.error.ofPixels) error /= static_cast<float>(pictures);
+    for (double relMse : tally.relMse) m.error.relMse += relMse / static_cast<double>(m.repeats);
+    if (reference_.random) {
+        const auto [even, odd] = tally.halves();
+        const auto [ownEven, ownOdd] = own.halves();
+        m.picture = meanOf(even, odd);
+        if (pictures > 1) {
+            m.bias = squaredBias(even, odd, reference_.firstHalf, reference_.secondHalf, reference_.mean);
+            m.shift = squaredBias(even, odd, ownEven, ownOdd, reference_.mean);
+        }
+    } else {
+        m.picture = tally.even;
+        m.sameSamples = compare(m.picture, accurateAt(samplesOf(scenes_.levers(), configuration)));
+        m.bias = {m.sameSamples.relMse, 0};
+    }
+    m.pipelineMs = pipelineMs_[configuration];
+    m.kernelBytes = scenes_.load(configuration).kernelBytes;
+    return m;
+}
+
+std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& configurations, uint32_t repeats, double deadline) {
+    std::vector<Configuration> running;
+    for (const Configuration& c : configurations) {
+        progress_.show("warming up", running.size(), configurations.size());
+        if (warmUp(c) > 0) running.push_back(c);
+    }
+    if (running.empty() || running.front() != configurations.front())
+        throw std::runtime_error("the scene's own settings cannot be rendered: " + failures_.front().reason);
+    std::vector<Tally> tallies(running.size());
+    for (uint32_t round = 0; round < repeats && (round < kLeastRounds || progress_.seconds() < deadline); ++round) {
+        for (size_t i = 0; i < running.size(); ++i) {
+            progress_.show("round " + std::to_string(round + 1) + ", picture", i + 1, running.size());
+            add(tallies[i], running[i], round);
+        }
+    }
+    std::vector<Measurement> measurements;
+    for (size_t i = 0; i < running.size(); ++i) measurements.push_back(evaluate(tallies[i], tallies[0], running[i]));
+    progress_.clear();
+    return measurements;
+}
+
+}  // namespace cost

@@ -1,0 +1,296 @@
+#include "page.hpp"
+
+#include <algorithm>
+
+#include "page_pictures.hpp"
+#include "page_style.hpp"
+#include "plot.hpp"
+
+namespace cost {
+namespace {
+
+std::string element(const std::string& name, const std::string& attributes, const std::string& content) {
+    return "<" + name + (attributes.empty() ? "" : " " + attributes) + ">" + content + "</" + name + ">\n";
+}
+
+std::string image(const std::string& uri, const std::string& alternative) {
+    return "<img src=\"" + uri + "\" alt=\"" + escaped(alternative) + "\" loading=\"lazy\">";
+}
+
+std::string figure(const std::string& uri, const std::string& caption) {
+    return element("figure", "", image(uri, caption) + element("figcaption", "", escaped(caption)));
+}
+
+std::string groupOf(const Report& report, size_t i) {
+    return i == 0 ? "own" : i < report.singles ? "lever" : "combination";
+}
+
+bool onFront(const Report& report, size_t i) {
+    return std::find(report.front.begin(), report.front.end(), i) != report.front.end();
+}
+
+std::string anchor(size_t measurement) {
+    return "picture-" + std::to_string(measurement);
+}
+
+/// Of a lever alone, for plots: "fresnel schlick"; "" of combinations.
+std::string shortName(const Report& report, size_t i) {
+    if (i == 0) return "the scene's own";
+    if (i >= report.singles) return "";
+    const Configuration& own = report.measurements[0].configuration;
+    const Configuration& c = report.measurements[i].configuration;
+    const size_t lever = static_cast<size_t>(std::mismatch(c.begin(), c.end(), own.begin()).first - c.begin());
+    std::string name = report.levers[lever].name + " " + report.levers[lever].settings[c[lever]].name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
+
+std::string signedPercent(double ratio) {
+    return (ratio < 1 ? "−" : "+") + percent(std::abs(ratio - 1));
+}
+
+std::string chip(const Comparison& c) {
+    return "<span class=\"chip " + verdict(c) + "\">" + verdict(c) + "</span>";
+}
+
+/// Measurements whose pictures the page shows: of settings that change it, as many as do not make the page heavy.
+std::vector<size_t> pictured(const Report& report) {
+    constexpr size_t kMost = 14;
+    std::vector<size_t> chosen = {0};
+    for (const Comparison& c : report.comparisons)
+        if (c.change != ErrorChange::none && chosen.size() <= kMost) chosen.push_back(c.measurement);
+    return chosen;
+}
+
+std::string leverSentence(const Report& report, const Comparison& c) {
+    const std::vector<size_t> shown = pictured(report);
+    const bool linked = std::find(shown.begin(), shown.end(), c.measurement) != shown.end();
+    return escaped(sentence(report.levers[c.lever], c)) +
+           (linked ? " <a href=\"#" + anchor(c.measurement) + "\">Where?</a>" : "");
+}
+
+std::string head(const Report& report) {
+    std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene));
+    text += element("p", "class=\"soft\"",
+                    escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " +
+                            std::to_string(report.height) + " pixels, " + std::to_string(report.samples()) +
+                            (report.samples() == 1 ? " sample" : " samples") + " a pixel, " + report.date));
+    const Measurement& own = report.measurements.front();
+    std::string pictures = figure(
+        pictureUri(own.picture),
+        "The scene with its own settings: " + number(own.ms.median) + " ms" +
+            (report.reference.random && own.repeats > 1 ? " each, mean of " + std::to_string(own.repeats) + " pictures" : ""));
+    pictures += figure(pictureUri(report.reference.mean), "The reference: every lever at its most accurate, " +
+                                                              std::to_string(report.reference.samples) + " samples a pixel");
+    return text + element("div", "class=\"hero\"", pictures);
+}
+
+std::string findingsList(const Report& report) {
+    std::string items;
+    for (size_t i : findings(report.levers, report.comparisons)) {
+        const Comparison& c = report.comparisons[i];
+        items += element("li", "class=\"" + verdict(c) + "\"", leverSentence(report, c));
+    }
+    if (report.budgetMs > 0) items += element("li", "class=\"trade\"", escaped(budgetSentence(report)));
+    return element("ul", "class=\"findings\"", items);
+}
+
+Plot plotOf(const Report& report, double width, double height, bool names) {
+    Plot plot;
+    plot.width = width;
+    plot.height = height;
+    plot.names = names;
+    plot.cssClass = names ? "wide" : "narrow";
+    plot.front = report.front;
+    plot.floor = report.reference.relMse;
+    for (size_t i = 0; i < report.measurements.size(); ++i) {
+        const Measurement& m = report.measurements[i];
+        plot.points.push_back({std::to_string(i), names ? shortName(report, i) : report.nameOf(i), groupOf(report, i),
+                               m.ms.median, m.ms.lower, m.ms.upper, m.error.relMse});
+    }
+    return plot;
+}
+
+std::string plotSection(const Report& report) {
+    const std::string keys =
+        "<li class=\"own\"><svg viewBox=\"0 0 12 12\"><circle cx=\"6\" cy=\"6\" r=\"5\" fill=\"currentColor\"/></svg>the scene's "
+        "own settings</li>"
+        "<li class=\"lever\"><svg viewBox=\"0 0 12 12\"><circle cx=\"6\" cy=\"6\" r=\"4\" fill=\"currentColor\"/></svg>one lever "
+        "moved</li>"
+        "<li class=\"combination\"><svg viewBox=\"0 0 12 12\"><path d=\"M1 6l5-5 5 5-5 5z\" fill=\"none\" "
+        "stroke=\"currentColor\" stroke-width=\"1.6\"/></svg>several moved</li>"
+        "<li><svg viewBox=\"0 0 12 12\"><path d=\"M0 6H12\" stroke=\"var(--front)\" stroke-width=\"2\"/></svg>Pareto front: "
+        "nothing measured is both faster and more accurate</li>";
+    const std::string svgs = plotSvg(plotOf(report, 360, 340, false)) + plotSvg(plotOf(report, 860, 480, true));
+    return element("h2", "", "Error against time") +
+           element("div", "class=\"card\"", svgs + element("ul", "class=\"legend\"", keys)) +
+           element("p", "class=\"soft\"",
+                   "The numbers are those of the table. Left is faster, lower is more accurate; both axes are logarithmic; bars "
+                   "span the middle half of the repeats.");
+}
+
+std::string leversSection(const Report& report) {
+    std::string items;
+    for (const Comparison& c : report.comparisons)
+        items += element("li", c.leading ? "" : "class=\"more\"", chip(c) + element("span", "", leverSentence(report, c)));
+    for (const Lever& lever : report.levers)
+        if (!lever.idle.empty())
+            items +=
+                element("li", "", "<span class=\"chip either\">idle</span>" + element("span", "", escaped(idleSentence(lever))));
+    for (const Failure& f : report.failures)
+        items += element("li", "", "<span class=\"chip either\">failed</span>" + element("span", "", escaped(f.reason)));
+    const std::string key =
+        "<b>keep</b>: worth its time. <b>spare</b>: costs time for nothing. <b>trade</b>: more accurate, but slower by more than "
+        "that. <b>either</b>: no difference.";
+    return element("h2", "", "Each lever, the most useful first") + element("ul", "class=\"levers\"", items) +
+           element("p", "class=\"soft\"", key);
+}
+
+/// The scene's own settings, then levers by their use, then combinations by time.
+std::vector<size_t> tableOrder(const Report& report) {
+    std::vector<size_t> order;
+    for (size_t i = 0; i < report.measurements.size(); ++i) order.push_back(i);
+    const auto rank = [&](size_t i) {
+        const Configuration& c = report.measurements[i].configuration;
+        const Configuration& own = report.measurements[0].configuration;
+        if (i == 0 || i >= report.singles) return i == 0 ? size_t{0} : report.comparisons.size() + 2;
+        const size_t lever = static_cast<size_t>(std::mismatch(c.begin(), c.end(), own.begin()).first - c.begin());
+        size_t at = 0;
+        while (at < report.comparisons.size() && report.comparisons[at].lever != lever) ++at;
+        return at + 1;
+    };
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+        return rank(a) != rank(b)
+                   ? rank(a) < rank(b)
+                   : rank(a) > report.comparisons.size() && report.measurements[a].ms.median < report.measurements[b].ms.median;
+    });
+    return order;
+}
+
+std::string cell(const std::string& content, const std::string& cssClass = "") {
+    return element("td", cssClass.empty() ? "" : "class=\"" + cssClass + "\"", content);
+}
+
+std::string biasCell(const Report& report, const Measurement& m) {
+    if (!report.reference.random) return number(m.bias.value);
+    if (m.repeats < 2) return "–";
+    const double bias = systematicError(m, report.measurements.front().configuration);
+    return bias > 0 ? number(bias) : "none seen";
+}
+
+std::string row(const Report& report, size_t i) {
+    const Measurement& m = report.measurements[i];
+    const std::string slowdown = i == 0 ? "" : covers(m.slowdown, 1) ? "in the noise" : signedPercent(m.slowdown.median);
+    const std::string spread = number(m.ms.lower) + "–" + number(m.ms.upper);
+    return element("tr", "",
+                   cell(std::to_string(i), groupOf(report, i)) + cell(escaped(report.nameOf(i))) + cell(number(m.ms.median)) +
+                       cell(spread) + cell(slowdown) + cell(number(m.error.relMse), onFront(report, i) ? "front" : "") +
+                       cell(biasCell(report, m)) + cell(percent(m.error.wrongPixels)) + cell(number(m.error.largest)) +
+                       cell(number(m.pipelineMs)) + cell(number(static_cast<double>(m.kernelBytes) / 1000)));
+}
+
+std::string tableSection(const Report& report) {
+    std::string rows;
+    for (size_t i : tableOrder(report)) rows += row(report, i);
+    const std::string bias = report.reference.random ? "bias" : "at the same samples";
+    const std::string headings =
+        "<tr><th>No.</th><th>Settings</th><th>ms</th><th>middle half</th><th>time</th><th>relMSE</th><th>" + bias +
+        "</th><th>wrong pixels</th><th>largest error</th><th>pipeline ms</th><th>kernel kB</th></tr>";
+    return element("h2", "", "All figures") +
+           element("div", "class=\"scroll\" tabindex=\"0\"",
+                   element("table", "", element("thead", "", headings) + element("tbody", "", rows))) +
+           element("p", "class=\"soft\"", "Green: on the Pareto front. Names tell what differs from the scene's own settings.");
+}
+
+/// What a picture is held against: Whitted's show what a lever does at the same samples.
+const Picture& judgeOf(const Report& report, size_t i) {
+    const Configuration& c = report.measurements[i].configuration;
+    const size_t lever = findLever(report.levers, LeverKind::samples);
+    const auto found = report.reference.atSamples.find(samplesOf(report.levers, c));
+    const bool same = found != report.reference.atSamples.end() && c[lever] == report.levers[lever].initial && i > 0;
+    return same ? found->second : report.reference.mean;
+}
+
+std::string picturePair(const Report& report, size_t i, const std::string& name) {
+    const Measurement& m = report.measurements[i];
+    const std::string what =
+        std::to_string(i) + ": " + name + " (relMSE " + number(m.error.relMse) + ", " + number(m.ms.median) + " ms)";
+    return element("div", "class=\"pair\" id=\"" + anchor(i) + "\"",
+                   element("p", "", escaped(what)) + image(pictureUri(m.picture), name) +
+                       image(differenceUri(m.picture, judgeOf(report, i)), "where it differs from the reference"));
+}
+
+std::string picturesSection(const Report& report) {
+    std::string pairs;
+    for (size_t i : pictured(report)) pairs += picturePair(report, i, report.nameOf(i));
+    const std::string scale =
+        element("div", "class=\"pair\"",
+                element("p", "class=\"soft\"",
+                        "Right of each picture is how far its pixels are from the reference, in steps of "
+                        "8-bit sRGB, from 1 to 128 by their logarithm; black is up to " +
+                            std::to_string(kUnseenSteps) + ", too little to see." +
+                            std::string(report.reference.random ? ""
+                                                                : " Where a lever alone is moved, the reference has the same "
+                                                                  "samples, so that only what the lever does shows.")) +
+                    "<img class=\"scale\" src=\"" + differenceScaleUri() + "\" alt=\"the scale\">");
+    return element("h2", "", "Pictures and where they are wrong") + scale + element("div", "class=\"pictures\"", pairs);
+}
+
+std::string methodSection(const Report& report) {
+    const Measurement& own = report.measurements.front();
+    const Reference& r = report.reference;
+    std::string text =
+        element("p", "",
+                "<b>Error</b> is relMSE: the mean over pixels and channels of (x − r)² / (r² + " + number(kRelMseEpsilon) +
+                    "), x the linear radiance of the picture, r the reference's, without the " + percent(kOutliers) +
+                    " of the pixels that are worst. A pixel is <b>wrong</b> when a channel of its "
+                    "8-bit sRGB value is off by more than " +
+                    std::to_string(kUnseenSteps) + " steps.");
+    text += element("p", "",
+                    "The <b>reference</b> has every lever at its most accurate setting and " + std::to_string(r.samples) +
+                        " samples a pixel. Its own relMSE, from the difference of two independent halves, is " +
+                        number(r.relMse) + "; smaller errors than that are not to be believed.");
+    text +=
+        r.random
+            ? element("p", "",
+                      "<b>Bias</b> is the part of the error that more samples do not remove, from products of independent "
+                      "pictures, in which noise cancels; named where it exceeds three standard errors. The sentences are for the "
+                      "scene's own " +
+                          std::to_string(report.sceneSamples) + " samples a pixel: bias stays, noise falls as their number.")
+            : element("p", "",
+                      "<b>At the same samples</b> is relMSE against the reference's settings at the same sample positions: what "
+                      "the lever itself does, without the error of too few samples. Whitted's pictures repeat bit for bit.");
+    text += element("p", "",
+                    "<b>Time</b> is the device's time for the dispatches of one picture: the median of " +
+                        std::to_string(own.repeats) +
+                        " repeats, in rounds in which all settings take turns. Costs are ratios within a round; one whose middle "
+                        "half includes 1 is called not measurable. Pipelines are created before and have a column of their own; "
+                        "a driver that caches them makes it smaller.");
+    if (report.samples() < report.sceneSamples)
+        text += element("p", "",
+                        "Measured with " + std::to_string(report.samples()) + " samples a pixel instead of the scene's " +
+                            std::to_string(report.sceneSamples) + ", to end in time.");
+    if (!report.baked)
+        text += element("p", "", "From a blob only levers of the rendering can move; those of the bake need the scene file.");
+    return element("h2", "", "How this was measured") + text;
+}
+
+std::string foot(const Report& report) {
+    return element("footer", "",
+                   escaped(std::string(report.device.name) + ", " + report.device.driver + ". " + report.date + ", " +
+                           number(report.seconds) + " s. Again: ") +
+                       element("code", "", escaped(report.command)));
+}
+
+}  // namespace
+
+std::string page(const Report& report) {
+    const std::string body = head(report) + findingsList(report) + plotSection(report) + leversSection(report) +
+                             tableSection(report) + picturesSection(report) + methodSection(report) + foot(report);
+    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+           "content=\"width=device-width, initial-scale=1\">\n" +
+           element("title", "", "What accuracy costs: " + escaped(report.scene)) + element("style", "", kPageStyle) +
+           "</head>\n<body>\n" + element("main", "", body) + "</body>\n</html>\n";
+}
+
+}  // namespace cost

@@ -1,0 +1,61 @@
+// How the page looks: on a phone and on a desk, by day and by night.
+#pragma once
+
+namespace cost {
+
+constexpr const char* kPageStyle = R"css(
+:root { color-scheme: light dark; --ink: #1d2129; --soft: #5c6470; --paper: #fbfaf7; --card: #fff; --rule: #dfdcd4; --own: #c2410c; --lever: #1d5fa8;
+  --combination: #7a3fb0; --front: #1b8553; --keep: #1b8553; --spare: #b42318; --trade: #a15c07; --either: #5c6470; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e8e6e1; --soft: #a4a9b3; --paper: #14161a; --card: #1c1f25; --rule: #343842; --own: #fb923c; --lever: #6cb1f7;
+    --combination: #c698f5; --front: #4ecb8d; --keep: #4ecb8d; --spare: #ff8a7d; --trade: #f2b04a; --either: #a4a9b3; }
+}
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--paper); color: var(--ink); font: 16px/1.5 system-ui, sans-serif; overflow-wrap: break-word; }
+main { max-width: 62rem; margin: 0 auto; padding: 1rem; }
+h1 { font-size: 1.6rem; line-height: 1.2; margin: .5rem 0 .2rem; }
+h2 { font-size: 1.15rem; margin: 2.2rem 0 .6rem; }
+p { margin: .5rem 0; }
+.soft, figcaption, footer { color: var(--soft); font-size: .88rem; }
+img { display: block; width: 100%; height: auto; border-radius: 4px; background: #000; }
+.hero { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 17rem), 1fr)); gap: .8rem; margin: 1rem 0; }
+figure { margin: 0; }
+figcaption { margin-top: .25rem; }
+.findings { margin: 1rem 0; padding: 0; list-style: none; display: grid; gap: .6rem; }
+.findings li { background: var(--card); border: 1px solid var(--rule); border-left: 5px solid var(--either); border-radius: 6px; padding: .7rem .9rem; font-size: 1.08rem; }
+.findings .keep { border-left-color: var(--keep); } .findings .spare { border-left-color: var(--spare); } .findings .trade { border-left-color: var(--trade); }
+.chip { display: inline-block; min-width: 3.7em; padding: 0 .5em; border: 1px solid currentColor; border-radius: 1em; font-size: .78rem; text-align: center; }
+.chip.keep { color: var(--keep); } .chip.spare { color: var(--spare); } .chip.trade { color: var(--trade); } .chip.either { color: var(--either); }
+.levers { list-style: none; padding: 0; margin: 0; }
+.levers li { padding: .5rem 0; border-top: 1px solid var(--rule); display: grid; grid-template-columns: 4.4rem 1fr; gap: .3rem .6rem; align-items: start; }
+.levers li.more { border-top: 0; padding-top: 0; font-size: .88rem; color: var(--soft); }
+.card { background: var(--card); border: 1px solid var(--rule); border-radius: 6px; padding: .5rem; }
+.plot { width: 100%; height: auto; font-family: inherit; }
+.plot text { fill: var(--ink); font-size: 11px; } .plot .tick { fill: var(--soft); font-size: 10px; } .plot .axis { fill: var(--soft); }
+.plot .grid { stroke: var(--rule); stroke-width: .7; } .plot .leader { stroke: var(--soft); stroke-width: .5; }
+.plot .front { fill: none; stroke: var(--front); stroke-width: 1.6; } .plot .floor { stroke: var(--soft); stroke-dasharray: 4 3; }
+.plot .spread { fill: none; stroke: currentColor; stroke-width: 1.6; opacity: .55; }
+.own { color: var(--own); } .lever { color: var(--lever); } .combination { color: var(--combination); }
+.plot g circle, .plot g path:not(.spread) { fill: currentColor; stroke: var(--card); stroke-width: 1; }
+.plot .combination path:not(.spread) { fill: var(--card); stroke: currentColor; stroke-width: 1.6; }
+.plot text.label { paint-order: stroke; stroke: var(--card); stroke-width: 3px; stroke-linejoin: round; }
+.wide { display: none; }
+@media (min-width: 46rem) { .wide { display: block; } .narrow { display: none; } }
+.legend { display: flex; flex-wrap: wrap; gap: .2rem 1.1rem; margin: .3rem .2rem; padding: 0; list-style: none; font-size: .88rem; }
+.legend svg { width: 14px; height: 14px; vertical-align: -2px; margin-right: .3em; overflow: visible; }
+.scroll { overflow-x: auto; border: 1px solid var(--rule); border-radius: 6px; background: var(--card); }
+table { border-collapse: collapse; font-size: .86rem; width: 100%; font-variant-numeric: tabular-nums; }
+th, td { padding: .35rem .6rem; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
+th { color: var(--soft); font-weight: 600; vertical-align: bottom; } tbody tr:last-child td { border-bottom: 0; }
+th:nth-child(2), td:nth-child(2) { text-align: left; white-space: normal; min-width: 11rem; }
+td.front { font-weight: 700; color: var(--front); }
+.pair { display: grid; grid-template-columns: 1fr 1fr; gap: .4rem; margin: .4rem 0 1.2rem; }
+.pair p { grid-column: 1 / -1; margin: 0; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 0 1.4rem; }
+.scale { height: 12px; image-rendering: pixelated; }
+code { background: var(--card); border: 1px solid var(--rule); border-radius: 4px; padding: .1em .35em; font-size: .85em; }
+a { color: var(--lever); }
+footer { border-top: 1px solid var(--rule); margin-top: 2rem; padding-top: .6rem; }
+)css";
+
+}  // namespace cost

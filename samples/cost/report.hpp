@@ -1,0 +1,39 @@
+// All that a run found, for the page and the JSON.
+#pragma once
+#include <optional>
+
+#include "budget.hpp"
+#include "comparison.hpp"
+
+namespace cost {
+
+struct Report {
+    std::string scene;    // its file's name
+    std::string command;  // to run it again
+    std::string date;
+    minirt_device_info device = {};
+    uint32_t width = 0, height = 0;
+    uint32_t sceneSamples = 0;  // the scene's own; those measured with may be fewer
+    bool baked = false;         // from a scene file; else from a blob, of which only render-time levers move
+    double seconds = 0;         // that it took
+    std::vector<Lever> levers;
+    Reference reference;
+    std::vector<Measurement> measurements;  // the scene's own settings, each lever alone, then combinations
+    size_t singles = 0;                     // how many of these come before the combinations
+    std::vector<size_t> front;              // measurements on the Pareto front
+    std::vector<Comparison> comparisons;
+    std::vector<Failure> failures;
+    double budgetMs = 0;  // 0: none was given
+    std::optional<BudgetChoice> choice;
+    double choiceMs = 0;      // of the choice, measured
+    double choiceRelMse = 0;  // likewise
+
+    uint32_t samples() const { return samplesOf(levers, measurements.front().configuration); }
+    /// What a measurement is called: its difference from the scene's own settings.
+    std::string nameOf(size_t measurement) const;
+};
+
+/// "Within 40 ms: ...; gives up ...". Of a report with a budget.
+std::string budgetSentence(const Report& report);
+
+}  // namespace cost

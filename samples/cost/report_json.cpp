@@ -1,0 +1,113 @@
+#include "report_json.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace cost {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json spreadJson(const Spread& s) {
+    return {{"median", s.median}, {"lower_quartile", s.lower}, {"upper_quartile", s.upper}};
+}
+
+Json errorsJson(const Errors& e) {
+    return {{"relmse", e.relMse}, {"max", e.largest}, {"wrong_pixels", e.wrongPixels}};
+}
+
+Json settingsJson(const std::vector<Lever>& levers, const Configuration& configuration) {
+    Json json = Json::object();
+    for (size_t i = 0; i < levers.size(); ++i) json[levers[i].name] = levers[i].settings[configuration[i]].name;
+    return json;
+}
+
+Json measurementJson(const Report& report, size_t i) {
+    const Measurement& m = report.measurements[i];
+    Json json = {{"name", report.nameOf(i)},
+                 {"kind", i == 0               ? "own"
+                          : i < report.singles ? "lever"
+                                               : "combination"},
+                 {"settings", settingsJson(report.levers, m.configuration)},
+                 {"repeats", m.repeats},
+                 {"ms", spreadJson(m.ms)},
+                 {"slowdown", spreadJson(m.slowdown)},
+                 {"error", errorsJson(m.error)},
+                 {"relmse_spread", spreadJson(m.relMse)},
+                 {"bias", {{"relmse", m.bias.value}, {"standard_error", m.bias.standardError}}},
+                 {"shift", {{"relmse", m.shift.value}, {"standard_error", m.shift.standardError}}},
+                 {"pipeline_ms", m.pipelineMs},
+                 {"kernel_bytes", m.kernelBytes},
+                 {"on_front", std::find(report.front.begin(), report.front.end(), i) != report.front.end()}};
+    if (!report.reference.random) json["same_samples"] = errorsJson(m.sameSamples);
+    return json;
+}
+
+Json leverJson(const Lever& lever) {
+    Json settings = Json::array();
+    for (const Setting& setting : lever.settings) settings.push_back(setting.name);
+    Json json = {{"name", lever.name},
+                 {"settings", settings},
+                 {"own", lever.settings[lever.initial].name},
+                 {"applies", lever.idle.empty()}};
+    if (!lever.idle.empty()) json["reason"] = lever.idle;
+    return json;
+}
+
+Json comparisonJson(const Report& report, const Comparison& c) {
+    const Lever& lever = report.levers[c.lever];
+    const char* const changes[] = {"none", "less error", "more error"};
+    return {{"lever", lever.name},
+            {"cheap", lever.settings[c.cheap].name},
+            {"accurate", lever.settings[c.accurate].name},
+            {"leading", c.leading},
+            {"slowdown", spreadJson(c.slowdown)},
+            {"change", changes[static_cast<size_t>(c.change)]},
+            {"error_removed", c.removed},
+            {"wrong_pixels_of_cheap", c.wrongPixels},
+            {"usefulness", c.usefulness},
+            {"verdict", verdict(c)},
+            {"sentence", sentence(lever, c)}};
+}
+
+Json budgetJson(const Report& report) {
+    Json json = {{"ms", report.budgetMs}, {"fits", report.choice.has_value()}};
+    if (!report.choice) return json;
+    json["settings"] = settingsJson(report.levers, report.choice->configuration);
+    json["settings"]["samples"] = std::to_string(report.choice->samples);
+    json["expected"] = {{"ms", report.choice->ms}, {"relmse", report.choice->relMse}};
+    json["measured"] = {{"ms", report.choiceMs}, {"relmse", report.choiceRelMse}};
+    json["given_up"] = givenUp(report.levers, *report.choice);
+    return json;
+}
+
+}  // namespace
+
+std::string reportJson(const Report& report) {
+    Json json = {{"scene", report.scene},        {"command", report.command},      {"date", report.date},
+                 {"device", report.device.name}, {"driver", report.device.driver}, {"width", report.width},
+                 {"height", report.height},      {"samples", report.samples()},    {"scene_samples", report.sceneSamples},
+                 {"seconds", report.seconds},    {"baked", report.baked}};
+    json["definitions"] = {{"relmse_epsilon", kRelMseEpsilon}, {"wrong_pixel_steps", kUnseenSteps}};
+    json["reference"] = {{"settings", settingsJson(report.levers, report.reference.configuration)},
+                         {"samples", report.reference.samples},
+                         {"random", report.reference.random},
+                         {"relmse", report.reference.relMse}};
+    json["reference"]["settings"]["samples"] = std::to_string(report.reference.samples);
+    json["levers"] = Json::array();
+    for (const Lever& lever : report.levers) json["levers"].push_back(leverJson(lever));
+    json["measurements"] = Json::array();
+    for (size_t i = 0; i < report.measurements.size(); ++i) json["measurements"].push_back(measurementJson(report, i));
+    json["comparisons"] = Json::array();
+    for (const Comparison& c : report.comparisons) json["comparisons"].push_back(comparisonJson(report, c));
+    json["findings"] = Json::array();
+    for (size_t i : findings(report.levers, report.comparisons))
+        json["findings"].push_back(sentence(report.levers[report.comparisons[i].lever], report.comparisons[i]));
+    json["failures"] = Json::array();
+    for (const Failure& f : report.failures)
+        json["failures"].push_back({{"settings", settingsJson(report.levers, f.configuration)}, {"reason", f.reason}});
+    if (report.budgetMs > 0) json["budget"] = budgetJson(report);
+    return json.dump(2) + "\n";
+}
+
+}  // namespace cost

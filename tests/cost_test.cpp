@@ -1,0 +1,337 @@
+// Of minirt-cost what needs no device: metrics, statistics, the front, sentences, budgets, the page.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "../samples/cost/page.hpp"
+#include "../samples/cost/page_pictures.hpp"
+#include "../samples/cost/pareto.hpp"
+#include "../samples/cost/plot.hpp"
+#include "../samples/cost/report_json.hpp"
+#include "../samples/cost/search.hpp"
+
+namespace {
+
+Picture constantPicture(float value, uint32_t width = 40, uint32_t height = 30) {
+    return {width, height, std::vector<float>(size_t{width} * height * 4, value)};
+}
+
+Picture noisyPicture(float mean, float deviation, uint32_t seed) {
+    Picture picture = constantPicture(mean, 200, 150);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> noise(0, deviation);
+    for (float& value : picture.rgba) value += noise(random);
+    return picture;
+}
+
+cost::Lever fresnelLever() {
+    return {cost::LeverKind::baked,
+            "fresnel",
+            "Fresnel",
+            {{"none", "no Fresnel reflection", 0}, {"schlick", "Schlick's Fresnel", 0}, {"exact", "exact Fresnel", 0}},
+            2,
+            2,
+            false,
+            ""};
+}
+
+cost::Lever samplesLever() {
+    return {cost::LeverKind::samples,
+            "samples",
+            "Samples a pixel",
+            {{"2", "2 samples", 2}, {"4", "4 samples", 4}, {"8", "8 samples", 8}},
+            1,
+            2,
+            true,
+            ""};
+}
+
+cost::Lever idleLever() {
+    cost::Lever lever{cost::LeverKind::baked,
+                      "dispersion",
+                      "Dispersion",
+                      {{"off", "no dispersion", 0}, {"rgb", "dispersion", 0}},
+                      1,
+                      1,
+                      false,
+                      ""};
+    lever.idle = "no medium disperses light";
+    return lever;
+}
+
+cost::Measurement measured(cost::Configuration configuration, double slowdown, double relMse, double wrongPixels) {
+    cost::Measurement m;
+    m.configuration = std::move(configuration);
+    m.repeats = 5;
+    m.ms = {10 * slowdown, 9.9 * slowdown, 10.1 * slowdown};
+    m.slowdown = {slowdown, slowdown * 0.99, slowdown * 1.01};
+    m.error.relMse = relMse;
+    m.relMse = {relMse, relMse, relMse};
+    m.sameSamples.wrongPixels = wrongPixels;
+    m.error.ofPixels.assign(1200, static_cast<float>(relMse));
+    m.picture = constantPicture(0.25f);
+    return m;
+}
+
+/// Exact Fresnel costs 2 % over Schlick's and removes 80 %; twice the samples take twice the time and halve the error.
+cost::Report sampleReport() {
+    cost::Report report;
+    report.scene = "glass & <ice>";
+    report.command = "minirt-cost \"a b.json\" -o a.html";
+    report.date = "2026-01-01";
+    report.width = 40, report.height = 30;
+    report.sceneSamples = 64;
+    report.levers = {fresnelLever(), idleLever(), samplesLever()};
+    report.measurements = {measured({2, 1, 1}, 1, 0.01, 0.01),        measured({0, 1, 1}, 0.5, 0.03, 0.2),
+                           measured({1, 1, 1}, 1 / 1.02, 0.05, 0.13), measured({2, 1, 0}, 0.5, 0.02, 0.01),
+                           measured({2, 1, 2}, 2, 0.005, 0.01),       measured({1, 1, 0}, 0.49, 0.06, 0.13)};
+    report.singles = 5;
+    report.reference.samples = 256;
+    report.reference.configuration = {2, 1, 2};
+    report.reference.mean = constantPicture(0.3f);
+    report.reference.relMse = 1e-4;
+    report.front = {5, 1, 0, 4};
+    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    return report;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// The first tag that does not close what is open, or "".
+std::string firstUnbalancedTag(const std::string& html) {
+    std::vector<std::string> open;
+    for (size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+        const size_t end = html.find('>', at);
+        if (end == std::string::npos) return html.substr(at, 40);
+        const std::string tag = html.substr(at + 1, end - at - 1);
+        const std::string name = tag.substr(0, tag.find_first_of(" \n"));
+        if (name == "!DOCTYPE" || name == "meta" || name == "img" || tag.back() == '/') continue;
+        if (name[0] != '/') {
+            open.push_back(name);
+        } else {
+            if (open.empty() || open.back() != name.substr(1)) return tag;
+            open.pop_back();
+        }
+    }
+    return open.empty() ? "" : open.back();
+}
+
+}  // namespace
+
+TEST_CASE("relMSE, largest error and wrong pixels of a constant offset are their closed forms") {
+    const float r = 0.5f;
+    const float x = 0.6f;
+    const cost::Errors errors = cost::compare(constantPicture(x), constantPicture(r));
+    const double d = static_cast<double>(x) - r;
+    CHECK(errors.relMse == doctest::Approx(d * d / (r * r + cost::kRelMseEpsilon)).epsilon(1e-6));
+    CHECK(errors.largest == doctest::Approx(d));
+    CHECK(errors.wrongPixels == 1);
+    const cost::Errors none = cost::compare(constantPicture(r), constantPicture(r));
+    CHECK(none.relMse == 0);
+    CHECK(none.largest == 0);
+    CHECK(none.wrongPixels == 0);
+}
+
+TEST_CASE("black references keep relMSE finite, and two steps of eight bits are not wrong yet") {
+    CHECK(cost::compare(constantPicture(0.1f), constantPicture(0)).relMse == doctest::Approx(1));
+    const auto linear = [](int step) { return std::pow((step / 255.0f + 0.055f) / 1.055f, 2.4f); };
+    CHECK(cost::compare(constantPicture(linear(102)), constantPicture(linear(100))).wrongPixels == 0);
+    CHECK(cost::compare(constantPicture(linear(103)), constantPicture(linear(100))).wrongPixels == 1);
+}
+
+TEST_CASE("one spark in a thousand pixels does not decide relMSE, but is the largest error") {
+    Picture picture = constantPicture(0.5f);
+    picture.rgba[0] = 1000;
+    const cost::Errors errors = cost::compare(picture, constantPicture(0.5f));
+    CHECK(errors.relMse == 0);
+    CHECK(errors.largest == doctest::Approx(999.5));
+}
+
+TEST_CASE("the estimate of the bias finds an offset under noise, and none where there is none") {
+    const Picture r1 = noisyPicture(0.5f, 0.02f, 1);
+    const Picture r2 = noisyPicture(0.5f, 0.02f, 2);
+    const Picture mean = constantPicture(0.5f, 200, 150);
+    const cost::Estimate biased = cost::squaredBias(noisyPicture(0.52f, 0.2f, 3), noisyPicture(0.52f, 0.2f, 4), r1, r2, mean);
+    CHECK(std::abs(biased.value - 0.0004 / 0.26) < 4 * biased.standardError);
+    const cost::Estimate unbiased = cost::squaredBias(noisyPicture(0.5f, 0.05f, 5), noisyPicture(0.5f, 0.05f, 6), r1, r2, mean);
+    CHECK(std::abs(unbiased.value) < 4 * unbiased.standardError);
+    CHECK(biased.standardError > 0);
+    CHECK(cost::relMseOfMean(r1, r2) == doctest::Approx(0.02 * 0.02 / 2 / 0.26).epsilon(0.05));
+}
+
+TEST_CASE("quartiles lie between their neighbours") {
+    const cost::Spread spread = cost::spreadOf({5, 1, 3, 2, 4});
+    CHECK(spread.median == 3);
+    CHECK(spread.lower == 2);
+    CHECK(spread.upper == 4);
+    CHECK(cost::spreadOf({1, 2}).median == 1.5);
+    CHECK(cost::spreadOf({7}).upper == 7);
+    CHECK(cost::covers(spread, 2));
+    CHECK_FALSE(cost::covers(spread, 1.9));
+}
+
+TEST_CASE("nothing beats a point of the front, and something beats each other point") {
+    CHECK(cost::paretoFront({}).empty());
+    CHECK(cost::paretoFront({{1, 1}, {1, 1}}) == std::vector<size_t>{0});
+    CHECK(cost::paretoFront({{3, 1}, {1, 3}, {2, 2}, {2, 3}, {3, 3}}) == std::vector<size_t>{1, 2, 0});
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit;
+    std::vector<cost::Tradeoff> points(200);
+    for (cost::Tradeoff& p : points) p = {unit(random), unit(random)};
+    const std::vector<size_t> front = cost::paretoFront(points);
+    for (size_t i = 0; i < points.size(); ++i) {
+        const auto beats = [&](const cost::Tradeoff& p) { return p.time < points[i].time && p.error < points[i].error; };
+        const bool beaten = std::any_of(points.begin(), points.end(), beats);
+        CHECK(beaten == (std::find(front.begin(), front.end(), i) == front.end()));
+    }
+}
+
+TEST_CASE("sentences give the cost of the accurate setting and what the cheap one does") {
+    const cost::Report report = sampleReport();
+    REQUIRE(report.comparisons.size() == 4);
+    const cost::Comparison& fresnel = report.comparisons[0];
+    CHECK(report.levers[fresnel.lever].name == "fresnel");
+    CHECK(cost::sentence(report.levers[0], fresnel) ==
+          "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error; without it 12 % of the "
+          "pixels look wrong.");
+    CHECK(cost::verdict(fresnel) == "keep");
+    CHECK(cost::idleSentence(idleLever()) == "Dispersion changes nothing on this scene: no medium disperses light.");
+}
+
+TEST_CASE("sentences say where nothing changes, and where nothing can be told") {
+    const std::vector<cost::Lever> levers = {samplesLever()};
+    const auto compared = [&](double slowdown, double error) {
+        return cost::compareLevers(levers, {measured({1}, 1, 0.01, 0), measured({2}, slowdown, error, 0)}, 1).front();
+    };
+    const auto said = [&](double slowdown, double error) { return cost::sentence(levers[0], compared(slowdown, error)); };
+    CHECK(said(1.21, 0.01) ==
+          "8 samples instead of 4 cost 21 % more time and change nothing that could be measured in the picture.");
+    CHECK(cost::verdict(compared(1.21, 0.01)) == "spare");
+    CHECK(said(1.004, 0.01) ==
+          "8 samples instead of 4 make no difference that could be measured, neither in time nor in the picture.");
+    CHECK(cost::verdict(compared(1.004, 0.01)) == "either");
+    CHECK(said(1.004, 0.005) == "8 samples instead of 4 have no measurable cost and remove 50 % of the error.");
+    CHECK(said(3, 0.005) == "8 samples instead of 4 take 3.00 times as long and remove 50 % of the error.");
+    CHECK(cost::verdict(compared(3, 0.005)) == "trade");
+    CHECK(said(0.8, 0.012) == "8 samples instead of 4 save 20 % of the time and add 20 % to the error.");
+}
+
+TEST_CASE("differences that chance could make are none") {
+    const std::vector<cost::Lever> levers = {samplesLever()};
+    cost::Measurement own = measured({1}, 1, 0.010, 0);
+    cost::Measurement other = measured({2}, 1, 0.011, 0);
+    std::mt19937 random(1);
+    std::normal_distribution<float> noise(0.01f, 0.05f);
+    for (float& error : other.error.ofPixels) error = noise(random);
+    const auto change = [&] { return cost::compareLevers(levers, {own, other}, 1).front().change; };
+    CHECK(change() == cost::ErrorChange::none);
+}
+
+TEST_CASE("a bias counts as it will at the scene's own samples, where noise has gone") {
+    cost::Lever depth = samplesLever();
+    depth.kind = cost::LeverKind::depth;
+    cost::Measurement own = measured({1}, 1, 0.012, 0);
+    cost::Measurement other = measured({0}, 1, 0.010, 0);
+    own.bias = other.bias = {0, 0.001};
+    other.shift = {0.004, 0.001};
+    CHECK(cost::compareLevers({depth}, {own, other}, 1).front().change == cost::ErrorChange::more);
+    const cost::Comparison many = cost::compareLevers({depth}, {own, other}, 100).front();
+    CHECK(many.change == cost::ErrorChange::less);
+    CHECK(many.removed == doctest::Approx(1 - 0.00012 / 0.00406));
+}
+
+TEST_CASE("percentages and numbers are as short as they may be") {
+    CHECK(cost::percent(0.021) == "2 %");
+    CHECK(cost::percent(0.004) == "0.4 %");
+    CHECK(cost::percent(0.996) == "99.6 %");
+    CHECK(cost::number(0.00123) == "0.00123");
+    CHECK(cost::number(1234) == "1234");
+    CHECK(cost::number(0) == "0");
+    CHECK(cost::number(2.5e-7) == "2.5e-07");
+}
+
+TEST_CASE("each lever moves alone, and idle ones not at all") {
+    const std::vector<cost::Lever> levers = {fresnelLever(), idleLever(), samplesLever()};
+    const std::vector<cost::Configuration> all = cost::oneAtATime(levers);
+    CHECK(all == std::vector<cost::Configuration>{{2, 1, 1}, {0, 1, 1}, {1, 1, 1}, {2, 1, 0}, {2, 1, 2}});
+}
+
+TEST_CASE("combinations are few, new, and begin with what saves time for nothing") {
+    const std::vector<cost::Lever> levers = {fresnelLever(), idleLever(), samplesLever()};
+    const std::vector<cost::Measurement> singles = {measured({2, 1, 1}, 1, 0.01, 0), measured({1, 1, 1}, 0.9, 0.01, 0),
+                                                    measured({2, 1, 0}, 0.5, 0.02, 0), measured({2, 1, 2}, 2, 0.005, 0)};
+    const std::vector<cost::Configuration> found = cost::combinations(levers, singles, 12);
+    CHECK(found == std::vector<cost::Configuration>{{1, 1, 2}, {1, 1, 0}});
+    CHECK(cost::combinations(levers, singles, 1).size() <= 1);
+}
+
+TEST_CASE("a budget buys the least error that fits, and says what it gives up") {
+    const cost::Report report = sampleReport();
+    const auto rich = cost::chooseWithin(80.5, report.levers, report.measurements, 1);
+    REQUIRE(rich);
+    CHECK(rich->samples == 32);
+    CHECK(rich->configuration[0] == 2);
+    CHECK(rich->ms <= 80.5);
+    CHECK(cost::givenUp(report.levers, *rich).empty());
+    const auto poor = cost::chooseWithin(1.3, report.levers, report.measurements, 1);
+    REQUIRE(poor);
+    CHECK(poor->configuration[0] == 0);
+    CHECK(poor->ms <= 1.3);
+    CHECK(cost::givenUpSentence(report.levers, *poor) ==
+          "Given up: no Fresnel reflection instead of exact Fresnel, 1 sample a pixel instead of 4.");
+    CHECK_FALSE(cost::chooseWithin(1.2, report.levers, report.measurements, 1));
+    CHECK(cost::fastestMs(report.levers, report.measurements, 2) == doctest::Approx(2.5));
+}
+
+TEST_CASE("base64 is that of RFC 4648") {
+    const auto encoded = [](const std::string& text) { return cost::base64({text.begin(), text.end()}); };
+    CHECK(encoded("") == "");
+    CHECK(encoded("f") == "Zg==");
+    CHECK(encoded("fo") == "Zm8=");
+    CHECK(encoded("foo") == "Zm9v");
+    CHECK(encoded("foobar") == "Zm9vYmFy");
+}
+
+TEST_CASE("the page is balanced, loads nothing, and escapes what it is told") {
+    cost::Report report = sampleReport();
+    report.budgetMs = 1;
+    const std::string html = cost::page(report);
+    CHECK(firstUnbalancedTag(html) == "");
+    for (const char* load : {"http:", "https:", "<script", "<link", "url(", "@import", "src=\"/"}) {
+        CAPTURE(load);
+        CHECK_FALSE(contains(html, load));
+    }
+    CHECK(contains(html, "glass &amp; &lt;ice&gt;"));
+    CHECK_FALSE(contains(html, "<ice>"));
+    CHECK(contains(html, "&quot;a b.json&quot;"));
+    CHECK(contains(html, "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time"));
+    CHECK(contains(html, "no medium disperses light"));
+    CHECK(contains(html, "Nothing fits 1.00 ms"));
+    CHECK(contains(html, "width=device-width"));
+}
+
+TEST_CASE("every point is in both plots, inside of their boxes") {
+    const cost::Report report = sampleReport();
+    const std::string html = cost::page(report);
+    for (size_t i = 0; i < report.measurements.size(); ++i) {
+        const std::string mark = "<title>" + std::to_string(i) + ": ";
+        const size_t first = html.find(mark);
+        REQUIRE(first != std::string::npos);
+        CHECK(html.find(mark, first + 1) != std::string::npos);
+    }
+    CHECK_FALSE(contains(html, "nan"));
+    CHECK_FALSE(contains(html, "inf\""));
+}
+
+TEST_CASE("the JSON holds every measurement with its settings by name") {
+    const auto json = nlohmann::json::parse(cost::reportJson(sampleReport()));
+    CHECK(json["measurements"].size() == 6);
+    CHECK(json["measurements"][2]["settings"]["fresnel"] == "schlick");
+    CHECK(json["measurements"][5]["kind"] == "combination");
+    CHECK(json["findings"].size() == 2);
+    CHECK(json["levers"][1]["reason"] == "no medium disperses light");
+}
