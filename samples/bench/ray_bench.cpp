@@ -37,10 +37,14 @@ public:
     RaySetResult trace(const RaySet& set) {
         setRays(set);
         const std::vector<Contender> contenders = contendersFor(set.anyHit);
-        const std::vector<std::vector<double>> ms = takeTurns(contenders, rounds_);
+        const std::vector<Times> times = takeTurns(contenders, rounds_);
         RaySetResult result{set.name, set.rays.size(), 0, {}};
         for (size_t i = 0; i < contenders.size(); ++i)
-            result.contenders.push_back({contenders[i].name, mraysPerSecond(set.rays.size(), ms[i]), ratioTo(ms[i], ms[0]), {}});
+            result.contenders.push_back({contenders[i].name,
+                                         mraysPerSecond(set.rays.size(), times[i].ms),
+                                         ratioTo(times[i].ms, times[0].ms),
+                                         ratioTo(times[i].processorMs, times[0].processorMs),
+                                         {}});
         const std::vector<Hit> own = kernel_.hits();
         result.hits = agreement(own, own, true, 0).hits;
         judge(set.anyHit, own, result);

@@ -21,6 +21,7 @@ struct ContenderResult {
     std::string name;
     Spread mraysPerSecond;
     Spread ratio;                        // minirt's rays per second over this one's, round by round
+    Spread processorRatio;               // the same by the processor time that they took
     std::optional<Agreement> agreement;  // with minirt; absent where none is promised
 };
 

@@ -74,28 +74,44 @@ struct RayKernel::Insides {
         require(result);
     }
 
+    double dispatch(minirt_job& job, uint32_t count, bool resume) {
+        job.frame.sampling.w = resume ? 1u : 0u;
+        double ms = 0;
+        require(detail::dispatch(&job, count, &ms));
+        return ms;
+    }
+
+    bool takePending() {
+        minirt_counters* counters = detail::hostCounters(scene);
+        const bool pending = counters->pending > 0;
+        std::memset(counters, 0, sizeof *counters);
+        return pending;
+    }
+
+    /// The kernel that can go on with what is left of a ray, from the start: some ray's budget did not last.
+    double traceAgain(minirt_job& job, uint32_t count) {
+        std::swap(scene->pipelines[0], scene->pipelines[1]);
+        double ms = dispatch(job, count, false);
+        while (takePending()) ms += dispatch(job, count, true);
+        std::swap(scene->pipelines[0], scene->pipelines[1]);
+        return ms;
+    }
+
     /// All rays, in as many dispatches as it takes. Returns the sum of their durations.
     double run(bool anyHit) {
         minirt_job job;
         job.scene = scene;
         job.frame.size = {kRowRays, groups * kRowRays, 0, 0};
         job.frame.region = {0, 0, kRowRays, groups * kRowRays};
-        minirt_counters* counters = detail::hostCounters(scene);
-        std::memset(counters, 0, sizeof *counters);
-        double sum = 0;
+        job.frame.sampling = {0, anyHit ? 1u : 0u, 0, 0};
+        double ms = 0;
         for (uint32_t first = 0; first < groups; first += groupsAtOnce) {
+            const uint32_t count = std::min(groupsAtOnce, groups - first);
             job.frame.blocks = {first, 1, 0, stateWords()};
-            bool resume = false;
-            do {
-                job.frame.sampling = {0, anyHit ? 1u : 0u, 0, resume ? 1u : 0u};
-                double ms = 0;
-                require(detail::dispatch(&job, std::min(groupsAtOnce, groups - first), &ms));
-                sum += ms;
-                resume = counters->pending > 0;
-                counters->pending = 0;
-            } while (resume);
+            ms += dispatch(job, count, false);
+            if (takePending()) ms += traceAgain(job, count);
         }
-        return sum;
+        return ms;
     }
 };
 
@@ -108,11 +124,17 @@ RayKernel::RayKernel(minirt_context* context, const minirtc::Scene& scene, const
     const minirtc::EffectSet effects =
         minirtc::analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT, false);
     const std::vector<uint8_t> blob =
-        minirtc::assembleBlob({scene, geometry, bvh, nodes, volumes, effects, {minirtc::compileKernel("rays", effects)}});
+        minirtc::assembleBlob({scene,
+                               geometry,
+                               bvh,
+                               nodes,
+                               volumes,
+                               effects,
+                               {minirtc::compileKernel("rays_once", effects), minirtc::compileKernel("rays", effects)}});
     insides_->context = context;
     insides_->order = bvh.order;
     insides_->require(minirt_load_memory(context, blob.data(), blob.size(), &insides_->scene));
-    const minirt_kernel* kernels[detail::kMostKernels] = {insides_->scene->kernels};
+    const minirt_kernel* kernels[detail::kMostKernels] = {&insides_->scene->kernels[0], &insides_->scene->kernels[1]};
     insides_->require(detail::activateKernels(insides_->scene, kernels));
     const detail::Buffer* buffers = insides_->scene->buffers;
     insides_->bytes.blob = nodes.words.size() * sizeof(uint32_t) + bvh.order.size() * MINIRT_PRIMITIVE_ROWS * sizeof(minirt_vec4);

@@ -25,10 +25,10 @@ std::vector<TreeResult> benchTrees(const Mesh& mesh, int rounds) {
         add("Embree medium", [&] { return embreeTree(mesh.triangles, EmbreeQuality::medium); });
         add("Embree high", [&] { return embreeTree(mesh.triangles, EmbreeQuality::high); });
     }
-    const std::vector<std::vector<double>> ms = takeTurns(contenders, rounds);
+    const std::vector<Times> times = takeTurns(contenders, rounds);
     for (size_t i = 0; i < results.size(); ++i) {
         std::vector<double> rates;
-        for (double one : ms[i]) rates.push_back(static_cast<double>(mesh.triangles.size()) / one * 1e-3);
+        for (double one : times[i].ms) rates.push_back(static_cast<double>(mesh.triangles.size()) / one * 1e-3);
         results[i].mtrianglesPerSecond = spreadOf(rates);
     }
     return results;
