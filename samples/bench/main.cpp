@@ -41,6 +41,7 @@ void addOptions(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--seed", o.rays.seed, "Of the secondary rays")->capture_default_str();
     app.add_option("--layout", o.layout, "Boxes of the hierarchy")->check(CLI::IsMember(kLayouts))->capture_default_str();
+    app.add_flag("--alone", o.rays.alone, "Trace by minirt alone");
     app.add_flag("!--no-trees", o.trees, "Leave the building of hierarchies out");
 }
 
@@ -98,7 +99,7 @@ bool run(const CLI::App& app, Options& o) {
     const unsigned threads = std::thread::hardware_concurrency();
     std::printf("%s (%s), %u processor threads; %u x %u primary rays, %u of each kind a hit, medians of %d rounds\n", info.name,
                 info.driver, threads, o.rays.width, o.rays.height, o.rays.perHit, o.rays.rounds);
-    const std::unique_ptr<DriverPipeline> pipeline = openPipeline(info);
+    const std::unique_ptr<DriverPipeline> pipeline = o.rays.alone ? nullptr : openPipeline(info);
     Json json = {{"device", info.name}, {"driver", info.driver}, {"processor_threads", threads}, {"rounds", o.rays.rounds}};
     json["seed"] = o.rays.seed;
     bool agrees = true;

@@ -23,13 +23,22 @@ Spread mraysPerSecond(size_t rays, const std::vector<double>& ms) {
     return spreadOf(rates);
 }
 
+Spread nsPerRay(size_t rays, const std::vector<double>& ms) {
+    std::vector<double> costs;
+    for (double one : ms) costs.push_back(one * 1e6 / static_cast<double>(rays));
+    return spreadOf(costs);
+}
+
 /// All that trace one mesh.
 class Field {
 public:
-    Field(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline, int rounds)
-        : kernel_(kernel), pipeline_(pipeline), rounds_(rounds), tolerance_(kTolerance * surroundingsOf(mesh.triangles).radius) {
+    Field(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline, const RayBenchOptions& options)
+        : kernel_(kernel),
+          pipeline_(pipeline),
+          rounds_(options.rounds),
+          tolerance_(kTolerance * surroundingsOf(mesh.triangles).radius) {
         if (pipeline_) pipeline_->setMesh(mesh.triangles);
-        if (!EmbreeRays::available()) return;
+        if (!EmbreeRays::available() || options.alone) return;
         robust_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeRays::Mode::robust);
         fast_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeRays::Mode::fast);
     }
@@ -42,6 +51,7 @@ public:
         for (size_t i = 0; i < contenders.size(); ++i)
             result.contenders.push_back({contenders[i].name,
                                          mraysPerSecond(set.rays.size(), times[i].ms),
+                                         nsPerRay(set.rays.size(), times[i].processorMs),
                                          ratioTo(times[i].ms, times[0].ms),
                                          ratioTo(times[i].processorMs, times[0].processorMs),
                                          {}});
@@ -98,7 +108,7 @@ bool RaySetResult::agrees() const {
 
 std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline,
                                     const RayBenchOptions& options) {
-    Field field(mesh, kernel, pipeline, options.rounds);
+    Field field(mesh, kernel, pipeline, options);
     RaySet primary{"primary", primaryRays(surroundingsOf(mesh.triangles), options.width, options.height), false, true};
     std::vector<RaySetResult> results = {field.trace(primary)};
     SecondaryRays secondary = secondaryRays(mesh.triangles, primary.rays, kernel.hits(), options.perHit, options.seed);

@@ -15,11 +15,13 @@ struct RayBenchOptions {
     uint32_t perHit = 1;  // secondary rays
     int rounds = 7;
     uint32_t seed = 1;
+    bool alone = false;  // without peers
 };
 
 struct ContenderResult {
     std::string name;
     Spread mraysPerSecond;
+    Spread processorNs;                  // a ray
     Spread ratio;                        // minirt's rays per second over this one's, round by round
     Spread processorRatio;               // the same by the processor time that they took
     std::optional<Agreement> agreement;  // with minirt; absent where none is promised

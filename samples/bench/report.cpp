@@ -14,6 +14,7 @@ Json toJson(const std::vector<RaySetResult>& results) {
         Json contenders;
         for (const ContenderResult& c : set.contenders) {
             Json& entry = contenders[c.name] = {{"mrays_per_s", toJson(c.mraysPerSecond)},
+                                                {"processor_ns_per_ray", toJson(c.processorNs)},
                                                 {"minirt_over_this", toJson(c.ratio)},
                                                 {"minirt_over_this_by_processor_time", toJson(c.processorRatio)}};
             if (c.agreement) entry["differing"] = {{"hit_or_miss", c.agreement->onlyOne}, {"distance", c.agreement->distance}};
