@@ -19,6 +19,7 @@ struct Options {
     std::string device;
     std::string size;
     std::string layout = "auto";
+    std::string bvh = "high";
     RayBenchOptions rays;
     bool trees = true;
 };
@@ -26,6 +27,9 @@ struct Options {
 const std::map<std::string, minirtc::LayoutChoice> kLayouts = {{"auto", minirtc::LayoutChoice::automatic},
                                                                {"quantised", minirtc::LayoutChoice::quantised},
                                                                {"float", minirtc::LayoutChoice::floating}};
+
+const std::map<std::string, minirtc::BvhQuality> kQualities = {{"fast", minirtc::BvhQuality::fast},
+                                                               {"high", minirtc::BvhQuality::high}};
 
 void addOptions(CLI::App& app, Options& o) {
     app.footer("Examples:\n  minirt-bench\n  minirt-bench --scenes meshes --json bench.json");
@@ -41,6 +45,7 @@ void addOptions(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--seed", o.rays.seed, "Of the secondary rays")->capture_default_str();
     app.add_option("--layout", o.layout, "Boxes of the hierarchy")->check(CLI::IsMember(kLayouts))->capture_default_str();
+    app.add_option("--bvh", o.bvh, "Building of the hierarchy")->check(CLI::IsMember(kQualities))->capture_default_str();
     app.add_flag("--alone", o.rays.alone, "Trace by minirt alone");
     app.add_flag("!--no-trees", o.trees, "Leave the building of hierarchies out");
 }
@@ -58,7 +63,7 @@ void settle(const CLI::App& app, const minirt_device_info& device, Options& o) {
 /// Returns whether all hits agree.
 bool benchMesh(const Mesh& mesh, const Options& o, const Device& device, DriverPipeline* pipeline, Json& json) {
     const size_t triangles = mesh.triangles.size();
-    const minirtc::Bvh bvh = minirtc::buildBvh(mesh.geometry, 0);
+    const minirtc::Bvh bvh = minirtc::buildBvh(mesh.geometry, 0, kQualities.at(o.bvh));
     RayKernel kernel(device.context(), mesh.scene, mesh.geometry, bvh, kLayouts.at(o.layout));
     const auto perTriangle = [&](uint64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(triangles); };
     std::printf("%s: %zu triangles, %s boxes; bytes a triangle: %.1f in the blob, %.1f on the device\n", mesh.name.c_str(),

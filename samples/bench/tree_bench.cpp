@@ -19,7 +19,8 @@ std::vector<TreeResult> benchTrees(const Mesh& mesh, int rounds) {
                                   return bvh.buildMs;
                               }});
     };
-    add("minirt", [&] { return minirtc::buildBvh(mesh.geometry, 0); });
+    add("minirt fast", [&] { return minirtc::buildBvh(mesh.geometry, 0, minirtc::BvhQuality::fast); });
+    add("minirt high", [&] { return minirtc::buildBvh(mesh.geometry, 0, minirtc::BvhQuality::high); });
     if (EmbreeRays::available()) {
         add("Embree low", [&] { return embreeTree(mesh.triangles, EmbreeQuality::low); });
         add("Embree medium", [&] { return embreeTree(mesh.triangles, EmbreeQuality::medium); });
