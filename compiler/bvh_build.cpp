@@ -285,10 +285,13 @@ Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality) {
     const auto start = std::chrono::steady_clock::now();
     if (geometry.primitives.empty()) return {};
     ThreadPool pool(threads);
-    const bool high = quality == BvhQuality::high && geometry.primitives.size() > kMaxLeafSize;
-    Bvh bvh = Builder(geometry, pool, !high).build();
-    if (high) bvh = reinsertSubtrees(bvh, pool);
+    Bvh bvh = Builder(geometry, pool, true).build();
     measure(bvh);
+    if (quality == BvhQuality::high && geometry.primitives.size() > kMaxLeafSize) {
+        Bvh better = reinsertSubtrees(Builder(geometry, pool, false).build(), pool);
+        measure(better);
+        if (better.sahCost < bvh.sahCost) bvh = std::move(better);  // but where the bound of the depth leaves no room
+    }
     bvh.buildMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return bvh;
 }

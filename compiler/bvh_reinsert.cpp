@@ -12,7 +12,8 @@ constexpr uint32_t kRoot = 0;
 constexpr uint32_t kStride = 2;             // of all nodes, one in so many is tried in a round
 constexpr uint32_t kMostRounds = 16;        //
 constexpr double kLeastImprovement = 1e-3;  // of the cost over kStride rounds, or it is not worth another
-constexpr uint32_t kChunkSize = 256;        // nodes that a thread takes at once
+constexpr uint32_t kMostPlaces = 100;  // that a search looks at: enough for surfaces; where everything overlaps it would be all
+constexpr uint32_t kChunkSize = 256;   // nodes that a thread takes at once
 
 /// A leaf where `height` is 0: then the children are its first slot and its size.
 struct Node {
@@ -46,7 +47,7 @@ private:
     uint32_t add(const BvhChild& child, uint32_t parent);
     uint32_t sibling(uint32_t node) const;
     Move bestMove(uint32_t node) const;
-    void searchSubtree(uint32_t start, float gain, Move& best) const;
+    void searchSubtree(uint32_t start, float gain, Move& best, uint32_t& placesLeft) const;
     std::vector<Move> findMoves(uint32_t round) const;
     double apply(const Move& move);
     double detach(uint32_t node);
@@ -100,10 +101,11 @@ Move Reinserter::bestMove(uint32_t node) const {
     if (pivot == kNoNode || pivot == kRoot) return best;
     float gain = nodes_[pivot].area;
     Box rest = nodes_[sibling(node)].box;
-    searchSubtree(sibling(node), gain, best);
-    while (pivot != kRoot) {
+    uint32_t placesLeft = kMostPlaces;
+    searchSubtree(sibling(node), gain, best, placesLeft);
+    while (pivot != kRoot && placesLeft > 0) {
         const uint32_t aside = sibling(pivot);
-        searchSubtree(aside, gain, best);
+        searchSubtree(aside, gain, best, placesLeft);
         rest.grow(nodes_[aside].box);
         pivot = nodes_[pivot].parent;
         gain += nodes_[pivot].area - rest.halfArea();
@@ -113,7 +115,7 @@ Move Reinserter::bestMove(uint32_t node) const {
 
 /// `gain`: what leaving gains. Boxes around a place grow, and its new parent costs at least the area of the node: where that is too much
 /// already, nothing below is better.
-void Reinserter::searchSubtree(uint32_t start, float gain, Move& best) const {
+void Reinserter::searchSubtree(uint32_t start, float gain, Move& best, uint32_t& placesLeft) const {
     struct Place {
         uint32_t node;
         float gain;
@@ -123,9 +125,10 @@ void Reinserter::searchSubtree(uint32_t start, float gain, Move& best) const {
     Place stack[kMaxDepth + 2];
     int level = 0;
     stack[level++] = {start, gain};
-    while (level > 0) {
+    while (level > 0 && placesLeft > 0) {
         const Place place = stack[--level];
         if (!(place.gain - area > best.gain)) continue;
+        --placesLeft;
         const Node& node = nodes_[place.node];
         const float around = joined(node.box, box).halfArea();
         if (place.gain - around > best.gain) best.gain = place.gain - around, best.target = place.node;

@@ -13,6 +13,7 @@ struct BakeOptions {
     bool allEffects = false;
     bool onlyDefault = false;  // kernels of the scene's own integrator alone
     LayoutChoice layout = LayoutChoice::automatic;
+    BvhQuality bvh = BvhQuality::high;
     unsigned threads = 0;     // 0: all cores
     std::string saveGlslDir;  // "": do not
     std::string statsFile;    // "": none
