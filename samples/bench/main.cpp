@@ -21,6 +21,8 @@ struct Options {
     std::string layout = "auto";
     std::string bvh = "high";
     RayBenchOptions rays;
+    std::vector<std::string> frames;
+    uint32_t samples = 4;
     bool trees = true;
 };
 
@@ -32,9 +34,12 @@ const std::map<std::string, minirtc::BvhQuality> kQualities = {{"fast", minirtc:
                                                                {"high", minirtc::BvhQuality::high}};
 
 void addOptions(CLI::App& app, Options& o) {
-    app.footer("Examples:\n  minirt-bench\n  minirt-bench --scenes meshes --json bench.json");
+    app.footer(
+        "Examples:\n  minirt-bench\n  minirt-bench --scenes meshes --json bench.json\n  minirt-bench --frames still_life.json");
     app.add_option("--scenes", o.scenes, "Folder of OBJ files to trace (default: knots, see below)");
     app.add_option("--knots", o.knots, "Without --scenes: triangles of each knot")->delimiter(',')->capture_default_str();
+    app.add_option("--frames", o.frames, "Scenes (.json) or blobs (.mrt) to render; then meshes only where they are asked for");
+    app.add_option("--spp", o.samples, "Samples of such a picture")->check(CLI::Range(1u, 1u << 16))->capture_default_str();
     app.add_option("--json", o.json, "Write all figures as JSON");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
     app.add_option("--size", o.size, "Primary rays: WIDTHxHEIGHT (default: 1280x720, on a GPU 1920x1080)");
@@ -113,10 +118,16 @@ bool run(const CLI::App& app, Options& o) {
         agrees = benchMesh(mesh, o, device, pipeline.get(), entry) && agrees;
         json["meshes"].push_back(entry);
     };
-    if (o.scenes.empty())
+    const bool withKnots = o.scenes.empty() && (o.frames.empty() || app.count("--knots") > 0);
+    if (withKnots)
         for (uint32_t triangles : o.knots) one(knotMesh(triangles));
-    else
+    if (!o.scenes.empty())
         for (const std::filesystem::path& file : objFiles(o.scenes)) one(loadMesh(file));
+    for (const std::string& file : o.frames) {
+        const SceneResult result = benchScene(file, {o.device, o.samples, o.rays.rounds});
+        print(result);
+        json["scenes"].push_back(toJson(result));
+    }
     if (!o.json.empty()) writeJson(o.json, json);
     return agrees;
 }

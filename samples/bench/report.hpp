@@ -2,6 +2,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include "frames.hpp"
 #include "ray_bench.hpp"
 #include "tree_bench.hpp"
 
@@ -12,8 +13,10 @@ using Json = nlohmann::ordered_json;
 Json toJson(const Spread& spread);
 Json toJson(const std::vector<RaySetResult>& results);
 Json toJson(const std::vector<TreeResult>& results);
+Json toJson(const SceneResult& result);
 
 void print(const std::vector<RaySetResult>& results);
 void print(const std::vector<TreeResult>& results);
+void print(const SceneResult& result);
 
 }  // namespace bench
