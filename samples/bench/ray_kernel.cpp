@@ -61,6 +61,17 @@ struct RayKernel::Insides {
         detail::writeDescriptors(scene);
     }
 
+    /// The kernel reads texels where the device is a CPU.
+    void uploadTexels(const std::vector<Ray>& rays) {
+        if (!context->info.is_cpu) return;
+        detail::Buffer staging;
+        detail::destroyBuffer(context, scene->buffers[MINIRT_BINDING_ENVIRONMENT]);
+        const minirt_result result =
+            detail::uploadPart(scene, MINIRT_BINDING_ENVIRONMENT, rays.data(), rays.size() * sizeof(Ray), staging);
+        detail::destroyBuffer(context, staging);
+        require(result);
+    }
+
     void upload(const std::vector<Ray>& rays) {
         const detail::Buffer& target = scene->buffers[MINIRT_BINDING_FILM];
         const size_t size = rays.size() * sizeof(Ray);
@@ -150,6 +161,7 @@ void RayKernel::setRays(const std::vector<Ray>& rays) {
     for (Ray& ray : all) ray.tMax = std::min(ray.tMax, MINIRT_RAY_END);
     insides_->rayCount = rays.size();
     insides_->groups = static_cast<uint32_t>(all.size() / detail::kBlockPixels);
+    insides_->uploadTexels(all);
     insides_->allocate();
     insides_->upload(all);
 }
