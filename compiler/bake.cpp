@@ -126,7 +126,7 @@ int bake(const BakeOptions& options) {
     applyToScene(asked, scene);
     if (options.onlyDefault) scene.render.integrators = {scene.render.integrator};
     const Geometry geometry = flatten(scene, diagnostics);
-    const Bvh bvh = buildBvh(geometry, options.threads);
+    const Bvh bvh = buildBvh(geometry, options.threads, options.bvh);
     const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
     const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, options.threads);
     const bool floatNodes = nodes.layout == MINIRT_NODES_FLOAT;

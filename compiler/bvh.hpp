@@ -53,7 +53,10 @@ Aabb bounds(const Primitive& primitive);
 /// in two directions, as no random ray meets it.
 double sahCost(const Bvh& bvh);
 
-/// Binned SAH on `threads` threads (0: all cores). The tree does not depend on the number of threads.
-Bvh buildBvh(const Geometry& geometry, unsigned threads);
+/// Fast: binned SAH. High: then subtrees are moved to where they cost less, which takes ten times as long or more.
+enum class BvhQuality { fast, high };
+
+/// On `threads` threads (0: all cores). The tree does not depend on the number of threads.
+Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality = BvhQuality::high);
 
 }  // namespace minirtc

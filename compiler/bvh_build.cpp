@@ -7,6 +7,7 @@
 #include <new>
 #include <type_traits>
 
+#include "bvh_reinsert.hpp"
 #include "bvh_split.hpp"
 #include "parallel.hpp"
 
@@ -47,7 +48,8 @@ struct Subtree {
 
 class Builder {
 public:
-    Builder(const Geometry& geometry, unsigned threads);
+    /// `joinsLeaves`: where that is cheaper; else leaves are of one primitive each as far as the bound of the depth allows.
+    Builder(const Geometry& geometry, ThreadPool& pool, bool joinsLeaves);
     Bvh build();
 
 private:
@@ -61,7 +63,8 @@ private:
 
     const Geometry& geometry_;
     const uint32_t size_;
-    ThreadPool pool_;
+    ThreadPool& pool_;
+    const bool joinsLeaves_;
     const uint32_t taskSize_;
     Room<Ref> refs_, spare_;
     Room<BvhNode> nodes_;
@@ -90,10 +93,11 @@ bool fit(const Halves& halves, uint32_t levels) {
     return fits(halves.half[0].size, levels) && fits(halves.half[1].size, levels);
 }
 
-Builder::Builder(const Geometry& geometry, unsigned threads)
+Builder::Builder(const Geometry& geometry, ThreadPool& pool, bool joinsLeaves)
     : geometry_(geometry),
       size_(static_cast<uint32_t>(geometry.primitives.size())),
-      pool_(threads),
+      pool_(pool),
+      joinsLeaves_(joinsLeaves),
       taskSize_(pool_.size() == 1 ? size_ : std::max(kMinTaskSize, size_ / (kTasksPerThread * pool_.size()))),
       refs_(size_),
       spare_(size_),
@@ -184,7 +188,7 @@ float Builder::buildSubtree(const Subtree& subtree) {
     makeNode(subtree, halves, children);
     const float firstCost = buildSubtree(children[0]);
     const float cost = range.box.halfArea() + firstCost + buildSubtree(children[1]);
-    if (range.size > kMaxLeafSize || cost < leafCost) return cost;
+    if (!joinsLeaves_ || range.size > kMaxLeafSize || cost < leafCost) return cost;
     collapse(subtree);
     return leafCost;
 }
@@ -277,11 +281,17 @@ double sahCost(const Bvh& bvh) {
     return halfArea(root) > 0 ? cost / halfArea(root) : 0;
 }
 
-Bvh buildBvh(const Geometry& geometry, unsigned threads) {
+Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality) {
     const auto start = std::chrono::steady_clock::now();
     if (geometry.primitives.empty()) return {};
-    Bvh bvh = Builder(geometry, threads).build();
+    ThreadPool pool(threads);
+    Bvh bvh = Builder(geometry, pool, true).build();
     measure(bvh);
+    if (quality == BvhQuality::high && geometry.primitives.size() > kMaxLeafSize) {
+        Bvh better = reinsertSubtrees(Builder(geometry, pool, false).build(), pool);
+        measure(better);
+        if (better.sahCost < bvh.sahCost) bvh = std::move(better);  // but where the bound of the depth leaves no room
+    }
     bvh.buildMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return bvh;
 }

@@ -17,6 +17,7 @@ struct BakeOptions {
     LeverSettings levers;              // over what the scene file says
     bool onlyDefault = false;          // kernels of the scene's own integrator alone
     LayoutChoice layout = LayoutChoice::automatic;
+    BvhQuality bvh = BvhQuality::high;
     unsigned threads = 0;     // 0: all cores
     std::string saveGlslDir;  // "": do not
     std::string statsFile;    // "": none

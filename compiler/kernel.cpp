@@ -132,6 +132,7 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
     for (const std::string& define : definesOf(effects.levers)) source += "#define " + define + "\n";
     source += "#define VOLUME_CAPACITY " + std::to_string(effects.volumeCapacity) + "\n";
     std::vector<std::string> parts = kParts;
+    if (name.rfind("rays", 0) == 0) parts.push_back("common/query.glsl");
     if (name != "whitted") parts.insert(parts.end(), kPathParts.begin(), kPathParts.end());
     parts.push_back("kernels/" + name + ".comp");
     for (const std::string& part : parts) source += "#line 1 \"" + part + "\"\n" + shaderLibrary().at(part) + "\n";

@@ -14,6 +14,11 @@ const std::map<std::string, LayoutChoice>& layouts() {
     return names;
 }
 
+const std::map<std::string, BvhQuality>& qualities() {
+    static const std::map<std::string, BvhQuality> names = {{"fast", BvhQuality::fast}, {"high", BvhQuality::high}};
+    return names;
+}
+
 std::string oneLineFailure(const CLI::App* app, const CLI::Error& error) {
     for (const CLI::App* subcommand : app->get_subcommands()) app = subcommand;
     const std::string command = app->get_parent() ? app->get_parent()->get_name() + " " + app->get_name() : app->get_name();
@@ -39,6 +44,10 @@ void addBake(CLI::App& app, BakeOptions& options, std::vector<std::string>& sett
             "--layout", [&](const std::string& name) { options.layout = layouts().at(name); },
             "Boxes of the hierarchy (default: auto)")
         ->check(CLI::IsMember(layouts()));
+    bake->add_option_function<std::string>(
+            "--bvh", [&](const std::string& name) { options.bvh = qualities().at(name); },
+            "Building of the hierarchy: fast to build, or fast to trace (default: high)")
+        ->check(CLI::IsMember(qualities()));
     bake->add_option("--threads", options.threads, "Threads (default: all cores); the blob does not depend on it")
         ->check(CLI::Range(1u, 1024u));
     bake->add_option("--save-glsl", options.saveGlslDir, "Folder for the kernels' GLSL");

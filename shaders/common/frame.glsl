@@ -39,16 +39,19 @@ PixelTask taskOf(uint slot) {
     return task;
 }
 
-/// That of an invocation: a group is a block.
-PixelTask pixelTask() {
+/// Of the invocation's group.
+uint groupNumber() {
     uint group = gl_WorkGroupID.x;
     if (INTERLEAVE_GROUPS) {  // devices that give each core one half of the grid: let both halves be alike
         uint groups = gl_NumWorkGroups.x;
         uint firstHalf = (groups + 1u) / 2u;
         group = group < firstHalf ? group * 2u : (group - firstHalf) * 2u + 1u;
     }
-    return taskOf(group * gl_WorkGroupSize.x + gl_LocalInvocationIndex);
+    return group;
 }
+
+/// That of an invocation: a group is a block.
+PixelTask pixelTask() { return taskOf(groupNumber() * gl_WorkGroupSize.x + gl_LocalInvocationIndex); }
 
 vec3 cameraDirection(uvec2 pixel, uint sampleIndex) {
     vec2 at = (vec2(pixel) + pixelSample(sampleIndex)) / vec2(frame.size.xy) * 2.0 - 1.0;

@@ -1,0 +1,158 @@
+#include "embree_rays.hpp"
+
+#include "parallel.hpp"
+#include "timing.hpp"
+
+#if MINIRT_HAVE_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+namespace bench {
+
+#if MINIRT_HAVE_EMBREE
+
+namespace {
+
+constexpr size_t kChunk = 4096;  // rays that a thread takes at once
+
+RTCRay embreeRay(const Ray& ray) {
+    RTCRay r = {};
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+    r.tfar = ray.tMax;
+    r.mask = ~0u;
+    return r;
+}
+
+Hit closestHit(RTCScene scene, RTCIntersectContext& context, const Ray& ray) {
+    RTCRayHit r;
+    r.ray = embreeRay(ray);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &r);
+    return {r.ray.tfar, r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoHit : r.hit.primID};
+}
+
+/// tfar becomes minus infinity where the ray is occluded.
+Hit anyHit(RTCScene scene, RTCIntersectContext& context, const Ray& ray) {
+    RTCRay r = embreeRay(ray);
+    rtcOccluded1(scene, &context, &r);
+    return {r.tfar, r.tfar < 0 ? 0u : kNoHit};
+}
+
+void fill(RTCRay8& packet, const Ray* rays) {
+    for (int i = 0; i < 8; ++i) {
+        packet.org_x[i] = rays[i].origin.x, packet.org_y[i] = rays[i].origin.y, packet.org_z[i] = rays[i].origin.z;
+        packet.dir_x[i] = rays[i].direction.x, packet.dir_y[i] = rays[i].direction.y, packet.dir_z[i] = rays[i].direction.z;
+        packet.tnear[i] = 0, packet.tfar[i] = rays[i].tMax, packet.time[i] = 0;
+        packet.mask[i] = ~0u, packet.id[i] = 0, packet.flags[i] = 0;
+    }
+}
+
+alignas(32) constexpr int kAllValid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
+
+void closestHits(RTCScene scene, RTCIntersectContext& context, const Ray* rays, Hit* hits) {
+    RTCRayHit8 packet;
+    fill(packet.ray, rays);
+    for (int i = 0; i < 8; ++i) packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect8(kAllValid, scene, &context, &packet);
+    for (int i = 0; i < 8; ++i)
+        hits[i] = {packet.ray.tfar[i], packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? kNoHit : packet.hit.primID[i]};
+}
+
+void anyHits(RTCScene scene, RTCIntersectContext& context, const Ray* rays, Hit* hits) {
+    RTCRay8 packet;
+    fill(packet, rays);
+    rtcOccluded8(kAllValid, scene, &context, &packet);
+    for (int i = 0; i < 8; ++i) hits[i] = {packet.tfar[i], packet.tfar[i] < 0 ? 0u : kNoHit};
+}
+
+}  // namespace
+
+struct EmbreeRays::Insides {
+    RTCDevice device = rtcNewDevice(nullptr);
+    RTCScene scene = rtcNewScene(device);
+    minirtc::ThreadPool pool{0};
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    bool coherent = false;
+
+    ~Insides() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+
+    void traceChunk(size_t begin, size_t end, bool any, Packing packing) {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        size_t i = begin;
+        if (packing == Packing::eight)
+            for (; i + 8 <= end; i += 8) (any ? anyHits : closestHits)(scene, context, &rays[i], &hits[i]);
+        for (; i < end; ++i) hits[i] = (any ? anyHit : closestHit)(scene, context, rays[i]);
+    }
+};
+
+bool EmbreeRays::available() {
+    return true;
+}
+
+EmbreeRays::EmbreeRays(const Triangles& mesh, Mode mode) : insides_(new Insides) {
+    RTCGeometry geometry = rtcNewGeometry(insides_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * mesh.size()));
+    auto* indices = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), mesh.size()));
+    for (size_t i = 0; i < 3 * mesh.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) positions[3 * i + axis] = mesh[i / 3][i % 3][axis];
+        indices[i] = static_cast<uint32_t>(i);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(insides_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    if (mode == Mode::robust) rtcSetSceneFlags(insides_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcCommitScene(insides_->scene);
+}
+
+EmbreeRays::~EmbreeRays() = default;
+
+void EmbreeRays::setRays(const std::vector<Ray>& rays, bool coherent) {
+    insides_->rays = rays;
+    insides_->hits.assign(rays.size(), {});
+    insides_->coherent = coherent;
+}
+
+double EmbreeRays::trace(bool anyHit, Packing packing) {
+    const double start = nowMs();
+    const size_t count = insides_->rays.size();
+    insides_->pool.parallelFor((count + kChunk - 1) / kChunk, [&](size_t chunk) {
+        insides_->traceChunk(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), anyHit, packing);
+    });
+    return nowMs() - start;
+}
+
+const std::vector<Hit>& EmbreeRays::hits() const {
+    return insides_->hits;
+}
+
+#else
+
+struct EmbreeRays::Insides {
+    std::vector<Hit> hits;
+};
+bool EmbreeRays::available() {
+    return false;
+}
+EmbreeRays::EmbreeRays(const Triangles&, Mode) : insides_(new Insides) {}
+EmbreeRays::~EmbreeRays() = default;
+void EmbreeRays::setRays(const std::vector<Ray>&, bool) {}
+double EmbreeRays::trace(bool, Packing) {
+    return 0;
+}
+const std::vector<Hit>& EmbreeRays::hits() const {
+    return insides_->hits;
+}
+
+#endif
+
+}  // namespace bench

@@ -1,0 +1,41 @@
+// Whole pictures of scenes, by each integrator, and what it takes until the first pixel is there.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "timing.hpp"
+
+namespace bench {
+
+struct FrameOptions {
+    std::string device;  // number or part of the name; "": the best
+    uint32_t samples = 4;
+    int rounds = 5;
+};
+
+struct FrameResult {
+    std::string integrator;
+    Spread msPerSample;
+    Spread mraysPerSecond;
+};
+
+/// Milliseconds of a process that shows the scene. The pipeline's time holds the first dispatch, at which some drivers compile.
+struct StartResult {
+    double context = 0, load = 0, upload = 0, pipeline = 0;
+    double firstPixel = 0;  // from nothing to a first sample of the first pixels
+};
+
+struct SceneResult {
+    std::string scene;
+    uint32_t width = 0, height = 0;
+    uint64_t blobBytes = 0;
+    double bakeMs = 0;         // 0: it was a blob already
+    StartResult cold, cached;  // the driver's cache of compiled shaders empty, and filled by the run before
+    std::vector<FrameResult> frames;
+};
+
+/// `file`: a blob, or a scene that is baked first. Throws std::runtime_error or minirtc::Error.
+SceneResult benchScene(const std::filesystem::path& file, const FrameOptions& options);
+
+}  // namespace bench

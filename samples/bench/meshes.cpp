@@ -1,0 +1,63 @@
+#include "meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "knot.hpp"
+
+namespace bench {
+namespace {
+
+Mesh flattened(const std::string& name, minirtc::Scene scene, minirtc::Mesh mesh) {
+    minirtc::Object object;
+    object.name = name;
+    object.mesh = 0;
+    object.material = 0;
+    scene.meshes.push_back(std::move(mesh));
+    scene.objects.push_back(object);
+    scene.materials.resize(1);
+    minirtc::Diagnostics diagnostics;
+    Mesh result{name, std::move(scene), {}, {}};
+    result.geometry = minirtc::flatten(result.scene, diagnostics);
+    for (const minirtc::Primitive& primitive : result.geometry.primitives) result.triangles.push_back(primitive.p);
+    return result;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> objFiles(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".obj") files.push_back(entry.path());
+    if (files.empty()) throw std::runtime_error(folder.string() + ": no OBJ file in it");
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+Mesh loadMesh(const std::filesystem::path& path) {
+    minirtc::Scene scene;
+    minirtc::Diagnostics diagnostics;
+    minirtc::Mesh mesh = minirtc::loadObj(path, false, scene, diagnostics);
+    return flattened(path.stem().string(), std::move(scene), std::move(mesh));
+}
+
+Mesh knotMesh(uint32_t triangles) {
+    samples::TorusKnot shape;
+    shape.sides = std::max(5, static_cast<int>(std::sqrt(triangles / 2 * 0.1125)));  // the sample's own proportions
+    shape.segments = std::max(10, static_cast<int>(triangles) / (2 * shape.sides));
+    const samples::Mesh knot = samples::torusKnot(shape);
+    minirtc::Mesh mesh;
+    mesh.path = "knot";
+    mesh.positions = knot.positions;
+    for (const samples::Face& face : knot.faces)
+        for (size_t i = 2; i < face.size(); ++i) {
+            minirtc::Face triangle;
+            const size_t corners[3] = {0, i - 1, i};
+            for (int k = 0; k < 3; ++k) triangle.corners[k].position = face[corners[k]].position;
+            mesh.faces.push_back(triangle);
+        }
+    return flattened("knot", {}, std::move(mesh));
+}
+
+}  // namespace bench

@@ -1,0 +1,28 @@
+// What minirt-bench traces: OBJ files of a folder, or tubes along a knot with as many triangles as asked for.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geometry.hpp"
+#include "ray_sets.hpp"
+
+namespace bench {
+
+struct Mesh {
+    std::string name;
+    minirtc::Scene scene;
+    minirtc::Geometry geometry;
+    Triangles triangles;  // those of the geometry, in its order
+};
+
+/// All OBJ files in `folder` and below, by name. Throws std::runtime_error where there is none.
+std::vector<std::filesystem::path> objFiles(const std::filesystem::path& folder);
+
+/// Throws minirtc::Error.
+Mesh loadMesh(const std::filesystem::path& path);
+
+/// Of about `triangles` triangles, at least 100.
+Mesh knotMesh(uint32_t triangles);
+
+}  // namespace bench

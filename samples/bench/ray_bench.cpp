@@ -1,0 +1,123 @@
+#include "ray_bench.hpp"
+
+#include <algorithm>
+
+#include "embree_rays.hpp"
+
+namespace bench {
+namespace {
+
+/// Of distances, in radii of the mesh: that of rays which graze a triangle is rounded most.
+constexpr float kTolerance = 1e-4f;
+
+struct RaySet {
+    const char* name;
+    std::vector<Ray> rays;
+    bool anyHit;
+    bool coherent;
+};
+
+Spread mraysPerSecond(size_t rays, const std::vector<double>& ms) {
+    std::vector<double> rates;
+    for (double one : ms) rates.push_back(static_cast<double>(rays) / one * 1e-3);
+    return spreadOf(rates);
+}
+
+Spread nsPerRay(size_t rays, const std::vector<double>& ms) {
+    std::vector<double> costs;
+    for (double one : ms) costs.push_back(one * 1e6 / static_cast<double>(rays));
+    return spreadOf(costs);
+}
+
+/// All that trace one mesh.
+class Field {
+public:
+    Field(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline, const RayBenchOptions& options)
+        : kernel_(kernel),
+          pipeline_(pipeline),
+          rounds_(options.rounds),
+          tolerance_(kTolerance * surroundingsOf(mesh.triangles).radius) {
+        if (pipeline_) pipeline_->setMesh(mesh.triangles);
+        if (!EmbreeRays::available() || options.alone) return;
+        robust_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeRays::Mode::robust);
+        fast_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeRays::Mode::fast);
+    }
+
+    RaySetResult trace(const RaySet& set) {
+        setRays(set);
+        const std::vector<Contender> contenders = contendersFor(set.anyHit);
+        const std::vector<Times> times = takeTurns(contenders, rounds_);
+        RaySetResult result{set.name, set.rays.size(), 0, {}};
+        for (size_t i = 0; i < contenders.size(); ++i)
+            result.contenders.push_back({contenders[i].name,
+                                         mraysPerSecond(set.rays.size(), times[i].ms),
+                                         nsPerRay(set.rays.size(), times[i].processorMs),
+                                         ratioTo(times[i].ms, times[0].ms),
+                                         ratioTo(times[i].processorMs, times[0].processorMs),
+                                         {}});
+        const std::vector<Hit> own = kernel_.hits();
+        result.hits = agreement(own, own, true, 0).hits;
+        judge(set.anyHit, own, result);
+        return result;
+    }
+
+private:
+    void setRays(const RaySet& set) {
+        kernel_.setRays(set.rays);
+        if (pipeline_) pipeline_->setRays(set.rays);
+        for (EmbreeRays* embree : {robust_.get(), fast_.get()})
+            if (embree) embree->setRays(set.rays, set.coherent);
+    }
+
+    std::vector<Contender> contendersFor(bool anyHit) {
+        using Packing = EmbreeRays::Packing;
+        std::vector<Contender> contenders = {{"minirt", [this, anyHit] { return kernel_.trace(anyHit); }}};
+        if (pipeline_) contenders.push_back({kPipeline, [this, anyHit] { return pipeline_->trace(anyHit); }});
+        if (!robust_) return contenders;
+        contenders.push_back({kRobust, [this, anyHit] { return robust_->trace(anyHit, Packing::single); }});
+        contenders.push_back({kFast, [this, anyHit] { return fast_->trace(anyHit, Packing::single); }});
+        contenders.push_back({"Embree, packets of 8", [this, anyHit] { return fast_->trace(anyHit, Packing::eight); }});
+        return contenders;
+    }
+
+    /// Only what is as exact as minirt must agree; the driver's pipeline is counted for the reader.
+    void judge(bool anyHit, const std::vector<Hit>& own, RaySetResult& result) {
+        for (ContenderResult& contender : result.contenders) {
+            if (contender.name == kPipeline) contender.agreement = agreement(own, pipeline_->hits(), anyHit, tolerance_);
+            if (contender.name == kRobust) contender.agreement = agreement(own, robust_->hits(), anyHit, tolerance_);
+        }
+    }
+
+    static constexpr const char* kPipeline = "driver's pipeline";
+    static constexpr const char* kRobust = "Embree robust";
+    static constexpr const char* kFast = "Embree";
+
+    RayKernel& kernel_;
+    DriverPipeline* pipeline_;
+    int rounds_;
+    float tolerance_;
+    std::unique_ptr<EmbreeRays> robust_, fast_;
+};
+
+}  // namespace
+
+bool RaySetResult::agrees() const {
+    return std::all_of(contenders.begin(), contenders.end(),
+                       [](const ContenderResult& c) { return !c.agreement || c.agreement->good(); });
+}
+
+std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline,
+                                    const RayBenchOptions& options) {
+    Field field(mesh, kernel, pipeline, options);
+    RaySet primary{"primary", primaryRays(surroundingsOf(mesh.triangles), options.width, options.height), false, true};
+    std::vector<RaySetResult> results = {field.trace(primary)};
+    SecondaryRays secondary = secondaryRays(mesh.triangles, primary.rays, kernel.hits(), options.perHit, options.seed);
+    if (secondary.diffuse.empty()) return results;
+    std::vector<Ray> disordered = shuffled(secondary.diffuse, options.seed);
+    results.push_back(field.trace({"shadow", std::move(secondary.shadow), true, true}));
+    results.push_back(field.trace({"diffuse", std::move(secondary.diffuse), false, false}));
+    results.push_back(field.trace({"shuffled", std::move(disordered), false, false}));
+    return results;
+}
+
+}  // namespace bench

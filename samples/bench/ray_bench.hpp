@@ -1,0 +1,44 @@
+// Rays per second of the traversal and of its peers, over one mesh.
+#pragma once
+#include <optional>
+
+#include "agreement.hpp"
+#include "driver_pipeline.hpp"
+#include "meshes.hpp"
+#include "ray_kernel.hpp"
+#include "timing.hpp"
+
+namespace bench {
+
+struct RayBenchOptions {
+    uint32_t width = 0, height = 0;
+    uint32_t perHit = 1;  // secondary rays
+    int rounds = 7;
+    uint32_t seed = 1;
+    bool alone = false;  // without peers
+};
+
+struct ContenderResult {
+    std::string name;
+    Spread mraysPerSecond;
+    Spread processorNs;                  // a ray
+    Spread ratio;                        // minirt's rays per second over this one's, round by round
+    Spread processorRatio;               // the same by the processor time that they took
+    std::optional<Agreement> agreement;  // with minirt; absent where none is promised
+};
+
+/// One kind of rays. The first contender is minirt.
+struct RaySetResult {
+    std::string rays;
+    size_t count = 0;
+    size_t hits = 0;
+    std::vector<ContenderResult> contenders;
+    /// Every agreement that was asked for is good.
+    bool agrees() const;
+};
+
+/// Of one mesh: primary, shadow, diffuse and the diffuse ones in random order. `pipeline` may be null.
+std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline,
+                                    const RayBenchOptions& options);
+
+}  // namespace bench

@@ -1,0 +1,195 @@
+#include "ray_kernel.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "timing.hpp"
+
+// The insides of the runtime are used here. The program's copy of it is this one: linked first, it leaves the compiler's aside.
+#define MINIRT_IMPLEMENTATION
+#include "minirt.h"
+
+namespace bench {
+
+namespace detail = minirt_detail;
+
+namespace {
+
+constexpr uint32_t kRowRays = 8;                  // of the image that the kernel takes the rays for
+constexpr uint64_t kMostStateBytes = 1ull << 30;  // of rays whose budget of steps is spent
+
+struct DeviceHit {
+    float t;
+    uint32_t slot;
+};
+
+static_assert(sizeof(Ray) == 32 && sizeof(DeviceHit) == 8, "the layout that the kernel reads and writes");
+
+}  // namespace
+
+struct RayKernel::Insides {
+    minirt_context* context = nullptr;
+    minirt_scene* scene = nullptr;
+    std::vector<uint32_t> order;  // slot -> primitive
+    SceneBytes bytes;
+    size_t rayCount = 0;
+    uint32_t groups = 0;
+    uint32_t groupsAtOnce = 0;
+
+    ~Insides() { minirt_unload(scene); }
+
+    void require(minirt_result result) const {
+        if (result) throw std::runtime_error(std::string("rays on the device: ") + minirt_last_message(context));
+    }
+
+    /// Words of saved state a ray, as shaders/kernels/rays.comp lays them out.
+    uint32_t stateWords() const { return 1 + MINIRT_TRAVERSAL_WORDS + scene->desc.bvh_depth; }
+
+    void allocate() {
+        const uint64_t groupBytes = uint64_t{stateWords()} * detail::kBlockPixels * sizeof(uint32_t);
+        const uint64_t most = std::min<uint64_t>(kMostStateBytes, context->limits.maxStorageBufferRange) / groupBytes;
+        groupsAtOnce = static_cast<uint32_t>(std::min<uint64_t>({most, groups, context->limits.maxComputeWorkGroupCount[0]}));
+        const uint64_t rays = uint64_t{groups} * detail::kBlockPixels;
+        if (rays * sizeof(Ray) > context->limits.maxStorageBufferRange)
+            throw std::runtime_error("rays on the device: too many for a buffer; fewer pixels or rays per hit help");
+        constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+        require(detail::ensureBuffer(scene, MINIRT_BINDING_FILM, rays * sizeof(Ray), usage));
+        require(detail::ensureBuffer(scene, MINIRT_BINDING_RAY_COUNTS, rays * sizeof(DeviceHit), usage));
+        require(detail::ensureBuffer(scene, MINIRT_BINDING_STATE, groupsAtOnce * groupBytes, 0));
+        detail::writeDescriptors(scene);
+    }
+
+    /// The kernel reads texels where the device is a CPU.
+    void uploadTexels(const std::vector<Ray>& rays) {
+        if (!context->info.is_cpu) return;
+        detail::Buffer staging;
+        detail::destroyBuffer(context, scene->buffers[MINIRT_BINDING_ENVIRONMENT]);
+        const minirt_result result =
+            detail::uploadPart(scene, MINIRT_BINDING_ENVIRONMENT, rays.data(), rays.size() * sizeof(Ray), staging);
+        detail::destroyBuffer(context, staging);
+        require(result);
+    }
+
+    void upload(const std::vector<Ray>& rays) {
+        const detail::Buffer& target = scene->buffers[MINIRT_BINDING_FILM];
+        const size_t size = rays.size() * sizeof(Ray);
+        if (target.mapped) {
+            std::memcpy(target.mapped, rays.data(), size);
+            return;
+        }
+        detail::Buffer staging;
+        const minirt_result result = detail::uploadThroughStaging(context, target, rays.data(), size, staging);
+        detail::destroyBuffer(context, staging);
+        require(result);
+    }
+
+    double dispatch(minirt_job& job, uint32_t count, bool resume) {
+        job.frame.sampling.w = resume ? 1u : 0u;
+        double ms = 0;
+        require(detail::dispatch(&job, count, &ms));
+        return ms;
+    }
+
+    bool takePending() {
+        minirt_counters* counters = detail::hostCounters(scene);
+        const bool pending = counters->pending > 0;
+        std::memset(counters, 0, sizeof *counters);
+        return pending;
+    }
+
+    /// The kernel that can go on with what is left of a ray, from the start: some ray's budget did not last.
+    double traceAgain(minirt_job& job, uint32_t count) {
+        std::swap(scene->pipelines[0], scene->pipelines[1]);
+        double ms = dispatch(job, count, false);
+        while (takePending()) ms += dispatch(job, count, true);
+        std::swap(scene->pipelines[0], scene->pipelines[1]);
+        return ms;
+    }
+
+    /// All rays, in as many dispatches as it takes. Returns the sum of their durations.
+    double run(bool anyHit) {
+        minirt_job job;
+        job.scene = scene;
+        job.frame.size = {kRowRays, groups * kRowRays, 0, 0};
+        job.frame.region = {0, 0, kRowRays, groups * kRowRays};
+        job.frame.sampling = {0, anyHit ? 1u : 0u, 0, 0};
+        double ms = 0;
+        for (uint32_t first = 0; first < groups; first += groupsAtOnce) {
+            const uint32_t count = std::min(groupsAtOnce, groups - first);
+            job.frame.blocks = {first, 1, 0, stateWords()};
+            ms += dispatch(job, count, false);
+            if (takePending()) ms += traceAgain(job, count);
+        }
+        return ms;
+    }
+};
+
+RayKernel::RayKernel(minirt_context* context, const minirtc::Scene& scene, const minirtc::Geometry& geometry,
+                     const minirtc::Bvh& bvh, minirtc::LayoutChoice layout)
+    : insides_(new Insides) {
+    const minirtc::EncodedNodes nodes = minirtc::encodeNodes(bvh, geometry, layout);
+    minirtc::Diagnostics diagnostics;
+    const minirtc::Volumes volumes = minirtc::analyseVolumes(scene, geometry, diagnostics);
+    const minirtc::EffectSet effects =
+        minirtc::analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT, false);
+    const std::vector<uint8_t> blob =
+        minirtc::assembleBlob({scene,
+                               geometry,
+                               bvh,
+                               nodes,
+                               volumes,
+                               effects,
+                               {minirtc::compileKernel("rays_once", effects), minirtc::compileKernel("rays", effects)}});
+    insides_->context = context;
+    insides_->order = bvh.order;
+    insides_->require(minirt_load_memory(context, blob.data(), blob.size(), &insides_->scene));
+    const minirt_kernel* kernels[detail::kMostKernels] = {&insides_->scene->kernels[0], &insides_->scene->kernels[1]};
+    insides_->require(detail::activateKernels(insides_->scene, kernels));
+    const detail::Buffer* buffers = insides_->scene->buffers;
+    insides_->bytes.blob = nodes.words.size() * sizeof(uint32_t) + bvh.order.size() * MINIRT_PRIMITIVE_ROWS * sizeof(minirt_vec4);
+    insides_->bytes.device = buffers[MINIRT_BINDING_NODES].size + buffers[MINIRT_BINDING_PRIMITIVES].size;
+}
+
+RayKernel::~RayKernel() = default;
+
+void RayKernel::setRays(const std::vector<Ray>& rays) {
+    std::vector<Ray> all = rays;  // whole groups
+    all.resize((rays.size() + detail::kBlockPixels - 1) / detail::kBlockPixels * detail::kBlockPixels,
+               {glm::vec3(0), 0, glm::vec3(0, 0, 1), 0});
+    for (Ray& ray : all) ray.tMax = std::min(ray.tMax, MINIRT_RAY_END);
+    insides_->rayCount = rays.size();
+    insides_->groups = static_cast<uint32_t>(all.size() / detail::kBlockPixels);
+    insides_->uploadTexels(all);
+    insides_->allocate();
+    insides_->upload(all);
+}
+
+double RayKernel::trace(bool anyHit) {
+    const double start = nowMs();
+    const double device = insides_->run(anyHit);
+    return insides_->context->info.is_cpu ? nowMs() - start : device;
+}
+
+std::vector<Hit> RayKernel::hits() {
+    const void* data = nullptr;
+    minirt_scene* scene = insides_->scene;
+    insides_->require(detail::readBuffer(scene, MINIRT_BINDING_RAY_COUNTS, scene->countsReadBack, &data));
+    std::vector<DeviceHit> found(insides_->rayCount);
+    std::memcpy(found.data(), data, found.size() * sizeof(DeviceHit));
+    std::vector<Hit> hits;
+    hits.reserve(found.size());
+    for (const DeviceHit& hit : found) hits.push_back({hit.t, hit.slot == MINIRT_NONE ? kNoHit : insides_->order.at(hit.slot)});
+    return hits;
+}
+
+const char* RayKernel::layout() const {
+    return insides_->scene->desc.node_layout == MINIRT_NODES_FLOAT ? "float" : "quantised";
+}
+
+SceneBytes RayKernel::bytes() const {
+    return insides_->bytes;
+}
+
+}  // namespace bench

@@ -1,0 +1,22 @@
+// What minirt-bench found, for people and for programs.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "frames.hpp"
+#include "ray_bench.hpp"
+#include "tree_bench.hpp"
+
+namespace bench {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const Spread& spread);
+Json toJson(const std::vector<RaySetResult>& results);
+Json toJson(const std::vector<TreeResult>& results);
+Json toJson(const SceneResult& result);
+
+void print(const std::vector<RaySetResult>& results);
+void print(const std::vector<TreeResult>& results);
+void print(const SceneResult& result);
+
+}  // namespace bench
