@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "stage.hpp"
 #include "timing.hpp"
 
 namespace bench {
@@ -18,12 +19,6 @@ struct FrameResult {
     std::string integrator;
     Spread msPerSample;
     Spread mraysPerSecond;
-};
-
-/// Milliseconds of a process that shows the scene. The pipeline's time holds the first dispatch, at which some drivers compile.
-struct StartResult {
-    double context = 0, load = 0, upload = 0, pipeline = 0;
-    double firstPixel = 0;  // from nothing to a first sample of the first pixels
 };
 
 struct SceneResult {

@@ -22,6 +22,7 @@ struct Options {
     std::string bvh = "high";
     RayBenchOptions rays;
     std::vector<std::string> frames;
+    std::vector<std::string> effects;
     uint32_t samples = 4;
     bool trees = true;
 };
@@ -39,6 +40,9 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--scenes", o.scenes, "Folder of OBJ files to trace (default: knots, see below)");
     app.add_option("--knots", o.knots, "Without --scenes: triangles of each knot")->delimiter(',')->capture_default_str();
     app.add_option("--frames", o.frames, "Scenes (.json) or blobs (.mrt) to render; then meshes only where they are asked for");
+    app.add_option("--effects", o.effects,
+                   "Scenes (.json) to render by kernels with the effects that they call for, and with all; then meshes only "
+                   "where they are asked for");
     app.add_option("--spp", o.samples, "Samples of such a picture")->check(CLI::Range(1u, 1u << 16))->capture_default_str();
     app.add_option("--json", o.json, "Write all figures as JSON");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
@@ -101,6 +105,13 @@ void writeJson(const std::string& path, const Json& json) {
     if (!problem.empty()) throw std::runtime_error(problem);
 }
 
+/// A small picture on a CPU device, where kernels with all effects take their time.
+EffectsOptions effectsOptions(const Options& o, const minirt_device_info& device) {
+    EffectsOptions options{o.device, device.is_cpu ? 128u : 1024u, device.is_cpu ? 96u : 768u, o.samples, o.rays.rounds};
+    if (!o.size.empty()) parseSize(o.size, options.width, options.height);
+    return options;
+}
+
 /// Returns whether all hits agree.
 bool run(const CLI::App& app, Options& o) {
     const Device device(o.device);
@@ -118,7 +129,7 @@ bool run(const CLI::App& app, Options& o) {
         agrees = benchMesh(mesh, o, device, pipeline.get(), entry) && agrees;
         json["meshes"].push_back(entry);
     };
-    const bool withKnots = o.scenes.empty() && (o.frames.empty() || app.count("--knots") > 0);
+    const bool withKnots = o.scenes.empty() && ((o.frames.empty() && o.effects.empty()) || app.count("--knots") > 0);
     if (withKnots)
         for (uint32_t triangles : o.knots) one(knotMesh(triangles));
     if (!o.scenes.empty())
@@ -128,6 +139,12 @@ bool run(const CLI::App& app, Options& o) {
         print(result);
         json["scenes"].push_back(toJson(result));
     }
+    std::vector<EffectsResult> effects;
+    for (const std::string& file : o.effects) {
+        effects.push_back(benchEffects(file, effectsOptions(o, info)));
+        json["effects"].push_back(toJson(effects.back()));
+    }
+    if (!effects.empty()) print(effects);
     if (!o.json.empty()) writeJson(o.json, json);
     return agrees;
 }

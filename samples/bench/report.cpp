@@ -60,6 +60,18 @@ Json toJson(const SceneResult& result) {
     return json;
 }
 
+Json toJson(const EffectsResult& result) {
+    const auto kernel = [](const KernelResult& k) {
+        return Json{
+            {"spirv_bytes", k.spirvBytes}, {"first_dispatch_ms", k.firstDispatchMs}, {"ms_per_sample", toJson(k.msPerSample)}};
+    };
+    return {{"scene", result.scene},
+            {"integrator", result.integrator},
+            {"pruned", kernel(result.pruned)},
+            {"all_effects", kernel(result.whole)},
+            {"speedup", toJson(result.speedup)}};
+}
+
 void print(const std::vector<RaySetResult>& results) {
     std::printf("  %-9s %-21s %26s %22s %10s %10s\n", "rays", "tracer", "Mrays/s (lowest-highest)", "minirt over it",
                 "(cpu time)", "differing");
@@ -90,6 +102,17 @@ void print(const SceneResult& result) {
     for (const FrameResult& frame : result.frames)
         std::printf("  %-9s %10.2f ms a sample (%.2f-%.2f), %.2f Mrays/s\n", frame.integrator.c_str(), frame.msPerSample.median,
                     frame.msPerSample.low, frame.msPerSample.high, frame.mraysPerSecond.median);
+}
+
+void print(const std::vector<EffectsResult>& results) {
+    std::printf(
+        "| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (lowest to highest) "
+        "|\n|---|---|---|---|---|\n");
+    for (const EffectsResult& e : results)
+        std::printf("| `%s` %s | %.0f of %.0f | %.0f of %.0f | %.2f of %.2f | %.2f (%.2f to %.2f) |\n", e.scene.c_str(),
+                    e.integrator.c_str(), static_cast<double>(e.pruned.spirvBytes) * 1e-3,
+                    static_cast<double>(e.whole.spirvBytes) * 1e-3, e.pruned.firstDispatchMs, e.whole.firstDispatchMs,
+                    e.pruned.msPerSample.median, e.whole.msPerSample.median, e.speedup.median, e.speedup.low, e.speedup.high);
 }
 
 }  // namespace bench

@@ -2,6 +2,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include "effects_bench.hpp"
 #include "frames.hpp"
 #include "ray_bench.hpp"
 #include "tree_bench.hpp"
@@ -14,9 +15,12 @@ Json toJson(const Spread& spread);
 Json toJson(const std::vector<RaySetResult>& results);
 Json toJson(const std::vector<TreeResult>& results);
 Json toJson(const SceneResult& result);
+Json toJson(const EffectsResult& result);
 
 void print(const std::vector<RaySetResult>& results);
 void print(const std::vector<TreeResult>& results);
 void print(const SceneResult& result);
+/// Rows of a table in Markdown.
+void print(const std::vector<EffectsResult>& results);
 
 }  // namespace bench
