@@ -4,7 +4,11 @@ include(CMakePackageConfigHelpers)
 install(FILES ${PROJECT_SOURCE_DIR}/minirt.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS minirt EXPORT minirtTargets)
 if(MINIRT_BUILD_TOOLS)
+<<<<<<< HEAD
     set(tools minirtc minirt-render minirt-compare minirt-cost minirt-samples)
+=======
+    set(tools minirtc minirt-render minirt-compare minirt-bench minirt-samples)
+>>>>>>> bench
     if(TARGET minirt-viewer)
         list(APPEND tools minirt-viewer)
     endif()

@@ -19,8 +19,13 @@ using test::Words;
 namespace fs = std::filesystem;
 
 const Words kCommands[] = {
+<<<<<<< HEAD
     {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"}, {MINIRTC, "levers"},
     {MINIRTC},         {MINIRT_RENDER},      {MINIRT_COMPARE},      {MINIRT_HELLO},       {MINIRT_COST},
+=======
+    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"}, {MINIRTC},
+    {MINIRT_RENDER},   {MINIRT_COMPARE},     {MINIRT_HELLO},        {MINIRT_BENCH},
+>>>>>>> bench
 #ifdef MINIRT_VIEWER
     {MINIRT_VIEWER},
 #endif
@@ -117,6 +122,8 @@ TEST_CASE("wrong usage is refused in one line that leads to the help") {
     checkRefused({MINIRTC, "bake", "a.json", "-o", "a.mrt", "--layout", "1"}, {"--layout"});
     checkRefused({MINIRTC, "bake", "a.json", "-o", "a.mrt", "--threads", "0"}, {"--threads"});
     checkRefused({MINIRTC, "bake", "a.json", "-o", "a.mrt", "--threads", "999999"}, {"--threads"});
+    checkRefused({MINIRTC, "bake", "a.json", "-o", "a.mrt", "--bvh", "best"}, {"--bvh", "fast", "high"});
+    checkRefused({MINIRT_BENCH, "--rounds", "0"}, {"--rounds"});
     checkRefused({MINIRTC, "inspect"}, {"blob", "minirtc inspect --help"});
     checkRefused({MINIRTC, "devices", "more"}, {"more"});
     checkRefused({MINIRT_RENDER}, {"blob", "minirt-render --help"});
@@ -518,4 +525,23 @@ TEST_CASE("compare measures the difference of two pictures and judges it") {
     checkRefused({MINIRT_COMPARE, black, picture("short.pfm", "2 1", {0, 0, 0})}, {"short.pfm", "last pixel"});
     checkRefused({MINIRT_COMPARE, black, dir.write("text.pfm", "hello").string()}, {"text.pfm", ".pfm"});
     checkRefused({MINIRT_COMPARE, black, (dir.path() / "none.pfm").string()}, {"none.pfm", "exist"});
+}
+
+TEST_CASE("minirt-bench writes what it measured") {
+    if (!test::haveDevice()) return;
+    const test::TemporaryDir dir;
+    const std::string file = (dir.path() / "bench.json").string();
+    const Outcome outcome = run({MINIRT_BENCH, "--knots", "500", "--size", "64x64", "--rounds", "1", "--frames", sampleScene(),
+                                 "--spp", "1", "--json", file});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exitCode == 0);
+    const auto json = nlohmann::json::parse(test::readFile(file));
+    const auto& mesh = json["meshes"][0];
+    CHECK(mesh["triangles"].get<int>() > 400);
+    CHECK(mesh["bytes_per_triangle"]["blob"].get<double>() < 100);
+    for (const char* rays : {"primary", "shadow", "diffuse", "shuffled"})
+        CHECK(mesh["rays"][rays]["tracers"]["minirt"]["mrays_per_s"]["median"].get<double>() > 0);
+    CHECK(mesh["hierarchies"]["minirt high"]["sah_cost"].get<double>() > 1);
+    CHECK(json["scenes"][0]["frames"]["whitted"]["ms_per_sample"]["median"].get<double>() > 0);
+    CHECK(json["scenes"][0]["start"]["cold"]["first_pixel_ms"].get<double>() > 0);
 }

@@ -184,6 +184,10 @@ std::vector<Hit> RayKernel::hits() {
     return hits;
 }
 
+bool RayKernel::isGpu() const {
+    return !insides_->context->info.is_cpu;
+}
+
 const char* RayKernel::layout() const {
     return insides_->scene->desc.node_layout == MINIRT_NODES_FLOAT ? "float" : "quantised";
 }

@@ -29,6 +29,8 @@ public:
     void setRays(const std::vector<Ray>& rays);
     /// Milliseconds: by the device's clock on a GPU; on a CPU device by the wall's, from before the first submission to after the last.
     double trace(bool anyHit);
+    /// Whether the device has clocks of its own.
+    bool isGpu() const;
     /// Of the last trace, by primitive of the Geometry.
     std::vector<Hit> hits();
 

@@ -1,0 +1,206 @@
+// What minirt-bench can get wrong: its statistics, its rays, its judgement. Nothing here is timed.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "agreement.hpp"
+#include "embree_rays.hpp"
+#include "embree_tree.hpp"
+#include "meshes.hpp"
+#include "ray_sets.hpp"
+#include "support.hpp"
+#include "timing.hpp"
+
+using namespace bench;
+
+namespace {
+
+/// Two triangles that make the square [-1,1]^2 at y = 0, front up.
+const Triangles kSquare = {{glm::vec3(-1, 0, -1), glm::vec3(-1, 0, 1), glm::vec3(1, 0, 1)},
+                           {glm::vec3(-1, 0, -1), glm::vec3(1, 0, 1), glm::vec3(1, 0, -1)}};
+
+/// `count` rays from above onto one point of the square, and their hits.
+struct Downward {
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    explicit Downward(size_t count)
+        : rays(count, {glm::vec3(0.5f, 3, 0), 0, glm::vec3(0, -1, 0), kRayEnd}), hits(count, {3, 1}) {}
+};
+
+bool same(const std::vector<Ray>& a, const std::vector<Ray>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Ray)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("spreads are the median with the extremes") {
+    const Spread odd = spreadOf({5, 1, 3});
+    CHECK(odd.median == 3);
+    CHECK(odd.low == 1);
+    CHECK(odd.high == 5);
+    CHECK(spreadOf({4, 1, 2, 8}).median == 3);
+    CHECK(spreadOf({7}).median == 7);
+}
+
+TEST_CASE("contenders take turns, and the first round does not count") {
+    std::string turns;
+    double ms = 0;
+    const std::vector<Contender> contenders = {{"a", [&] { return turns += 'a', ms += 1; }},
+                                               {"b", [&] { return turns += 'b', 50.0; }}};
+    const std::vector<Times> times = takeTurns(contenders, 2);
+    CHECK(turns == "ababab");
+    CHECK(times[0].ms == std::vector<double>{2, 3});
+    CHECK(times[1].ms == std::vector<double>{50, 50});
+    const Spread ratio = ratioTo(times[1].ms, times[0].ms);
+    CHECK(ratio.low == doctest::Approx(50.0 / 3));
+    CHECK(ratio.high == 25);
+}
+
+TEST_CASE("primary rays go through the centres of all pixels, in tiles") {
+    const Surroundings around = {glm::vec3(1, 2, 3), 5};
+    const std::vector<Ray> rays = primaryRays(around, 32, 16);
+    REQUIRE(rays.size() == 32 * 16);
+    glm::dvec3 sum(0);
+    for (const Ray& ray : rays) {
+        CHECK(glm::length(ray.direction) == doctest::Approx(1).epsilon(1e-6));
+        CHECK(ray.origin == rays[0].origin);
+        sum += glm::dvec3(ray.direction);
+    }
+    const glm::vec3 forward = glm::normalize(around.center - rays[0].origin);
+    CHECK(glm::length(glm::vec3(glm::normalize(sum)) - forward) < 1e-6f);
+    // Ray 8 lies below ray 0, ray 64 to the right of ray 7: neighbours are one pixel apart.
+    const auto apart = [&](size_t i, size_t k) { return glm::length(rays[i].direction - rays[k].direction); };
+    CHECK(apart(0, 8) == doctest::Approx(apart(0, 1)).epsilon(0.2));
+    CHECK(apart(7, 64) == doctest::Approx(apart(6, 7)).epsilon(0.2));
+    // The vertical field of view is 0.9: the first and the last row are 15/16 of it apart on the image plane.
+    const auto slope = [&](size_t i) {
+        const glm::vec3 d = rays[i].direction / glm::dot(rays[i].direction, forward);
+        return d.y - forward.y;
+    };
+    const float up = std::sqrt(1 - forward.y * forward.y);
+    CHECK((slope(0) - slope(4 * 64 + 56)) / up == doctest::Approx(2 * std::tan(0.45) * 15 / 16).epsilon(1e-4));
+}
+
+TEST_CASE("shadow rays start on the side that the ray came from and end in the light") {
+    const Downward down(20000);
+    const SecondaryRays secondary = secondaryRays(kSquare, down.rays, down.hits, 1, 1);
+    const Surroundings around = surroundingsOf(kSquare);
+    const glm::vec3 light = around.center + around.radius * glm::vec3(2, 3, 1);
+    REQUIRE(secondary.shadow.size() == down.rays.size());
+    glm::dvec3 sum(0);
+    for (const Ray& ray : secondary.shadow) {
+        CHECK(ray.origin.y > 0);
+        const glm::vec3 end = ray.origin + ray.tMax * ray.direction - light;
+        CHECK(std::max({std::abs(end.x), std::abs(end.y), std::abs(end.z)}) <= 0.25f * around.radius * 1.0001f);
+        sum += glm::dvec3(end);
+    }
+    // Uniform over the cube: the mean is off its middle by no more than 5 standard errors.
+    const double error = 0.5 * around.radius / std::sqrt(12.0 * static_cast<double>(down.rays.size()));
+    for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(sum[axis] / static_cast<double>(down.rays.size())) < 5 * error);
+}
+
+TEST_CASE("diffuse rays are cosine-weighted") {
+    const Downward down(50000);
+    const SecondaryRays secondary = secondaryRays(kSquare, down.rays, down.hits, 2, 3);
+    const auto n = static_cast<double>(secondary.diffuse.size());
+    REQUIRE(n == 100000);
+    double cosine = 0, square = 0, x = 0, z = 0;
+    for (const Ray& ray : secondary.diffuse) {
+        const double c = static_cast<double>(ray.direction.y);
+        CHECK(c >= 0);
+        cosine += c / n, square += c * c / n;
+        x += static_cast<double>(ray.direction.x) / n, z += static_cast<double>(ray.direction.z) / n;
+    }
+    // Of the density cos / pi the means of cos and cos^2 are 2/3 and 1/2; of x and z 0 with a variance of 1/4.
+    CHECK(std::abs(cosine - 2.0 / 3) < 5 * std::sqrt((0.5 - 4.0 / 9) / n));
+    CHECK(std::abs(square - 0.5) < 5 * std::sqrt((1.0 / 3 - 0.25) / n));
+    CHECK(std::abs(x) < 5 * 0.5 / std::sqrt(n));
+    CHECK(std::abs(z) < 5 * 0.5 / std::sqrt(n));
+}
+
+TEST_CASE("secondary rays are the same for the same seed, whatever the others hit") {
+    const Downward down(100);
+    const SecondaryRays first = secondaryRays(kSquare, down.rays, down.hits, 2, 5);
+    CHECK(same(first.diffuse, secondaryRays(kSquare, down.rays, down.hits, 2, 5).diffuse));
+    CHECK_FALSE(same(first.diffuse, secondaryRays(kSquare, down.rays, down.hits, 2, 6).diffuse));
+    Downward without(100);
+    without.hits[0].primitive = kNoHit;
+    const SecondaryRays rest = secondaryRays(kSquare, without.rays, without.hits, 2, 5);
+    REQUIRE(rest.diffuse.size() == 198);
+    CHECK(std::memcmp(&rest.diffuse[0], &first.diffuse[1], sizeof(Ray)) == 0);
+    CHECK(std::memcmp(&rest.shadow[197], &first.shadow[199], sizeof(Ray)) == 0);
+}
+
+TEST_CASE("shuffling keeps every ray once and leaves few in place") {
+    std::vector<Ray> rays(1000, {glm::vec3(0), 0, glm::vec3(0, 0, 1), 0});
+    for (size_t i = 0; i < rays.size(); ++i) rays[i].tMax = static_cast<float>(i);
+    const std::vector<Ray> mixed = shuffled(rays, 1);
+    std::vector<float> numbers;
+    size_t inPlace = 0;
+    for (size_t i = 0; i < mixed.size(); ++i) numbers.push_back(mixed[i].tMax), inPlace += mixed[i].tMax == rays[i].tMax;
+    CHECK(inPlace < 10);
+    std::sort(numbers.begin(), numbers.end());
+    for (size_t i = 0; i < numbers.size(); ++i) CHECK(numbers[i] == rays[i].tMax);
+}
+
+TEST_CASE("hits agree where both miss or both are near, any hits where both hit") {
+    const std::vector<Hit> first = {{1, 0}, {2, 3}, {3, 1}, {0, kNoHit}, {0, kNoHit}};
+    const std::vector<Hit> second = {{1.05f, 7}, {2.2f, 3}, {0, kNoHit}, {5, kNoHit}, {1, 2}};
+    const Agreement closest = agreement(first, second, false, 0.1f);
+    CHECK(closest.rays == 5);
+    CHECK(closest.hits == 3);
+    CHECK(closest.onlyOne == 2);
+    CHECK(closest.distance == 1);
+    CHECK_FALSE(closest.good());
+    CHECK(agreement(first, second, true, 0.1f).differing() == 2);
+    CHECK(agreement({{NAN, 0}}, {{1, 0}}, false, 0.1f).distance == 1);
+    Agreement many;
+    many.rays = 200000;
+    many.onlyOne = 2;
+    CHECK(many.good());
+    many.distance = 1;
+    CHECK_FALSE(many.good());
+}
+
+TEST_CASE("knots have about as many triangles as asked for") {
+    for (const uint32_t triangles : {200u, 1000u, 70000u}) {
+        const Mesh knot = knotMesh(triangles);
+        CHECK(knot.triangles.size() == doctest::Approx(triangles).epsilon(0.03));
+        CHECK(knot.triangles.size() == knot.geometry.primitives.size());
+    }
+}
+
+TEST_CASE("Embree's hierarchies hold every triangle, and their cost is that of such trees") {
+    if (!EmbreeRays::available()) return test::skip("needs Embree 3");
+    const Mesh knot = knotMesh(5000);
+    const minirtc::Bvh own = minirtc::buildBvh(knot.geometry, 2, minirtc::BvhQuality::fast);
+    for (const EmbreeQuality quality : {EmbreeQuality::low, EmbreeQuality::medium, EmbreeQuality::high}) {
+        const minirtc::Bvh tree = embreeTree(knot.triangles, quality);
+        std::vector<uint32_t> order = tree.order;
+        std::sort(order.begin(), order.end());
+        order.erase(std::unique(order.begin(), order.end()), order.end());
+        CHECK(order.size() == knot.triangles.size());
+        CHECK(tree.nodes.size() + 1 == tree.leaves);
+        CHECK(tree.sahCost == minirtc::sahCost(tree));
+        CHECK(tree.sahCost > 0.9 * own.sahCost);
+        CHECK(tree.sahCost < 1.5 * own.sahCost);
+    }
+}
+
+TEST_CASE("Embree's packets find what its single rays find") {
+    if (!EmbreeRays::available()) return test::skip("needs Embree 3");
+    const Mesh knot = knotMesh(2000);
+    const std::vector<Ray> rays = primaryRays(surroundingsOf(knot.triangles), 64, 64);
+    EmbreeRays embree(knot.triangles, EmbreeRays::Mode::robust);
+    embree.setRays({rays.begin(), rays.end() - 3}, true);  // the last packet is not full
+    for (const bool anyHit : {false, true}) {
+        embree.trace(anyHit, EmbreeRays::Packing::single);
+        const std::vector<Hit> single = embree.hits();
+        embree.trace(anyHit, EmbreeRays::Packing::eight);
+        const Agreement both = agreement(single, embree.hits(), anyHit, 1e-5f);
+        CHECK(both.hits > 500);
+        CHECK(both.differing() == 0);
+    }
+}
