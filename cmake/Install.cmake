@@ -4,11 +4,7 @@ include(CMakePackageConfigHelpers)
 install(FILES ${PROJECT_SOURCE_DIR}/minirt.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS minirt EXPORT minirtTargets)
 if(MINIRT_BUILD_TOOLS)
-<<<<<<< HEAD
-    set(tools minirtc minirt-render minirt-compare minirt-cost minirt-samples)
-=======
-    set(tools minirtc minirt-render minirt-compare minirt-bench minirt-samples)
->>>>>>> bench
+    set(tools minirtc minirt-render minirt-compare minirt-bench minirt-cost minirt-samples)
     if(TARGET minirt-viewer)
         list(APPEND tools minirt-viewer)
     endif()

@@ -19,13 +19,8 @@ using test::Words;
 namespace fs = std::filesystem;
 
 const Words kCommands[] = {
-<<<<<<< HEAD
-    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"}, {MINIRTC, "levers"},
-    {MINIRTC},         {MINIRT_RENDER},      {MINIRT_COMPARE},      {MINIRT_HELLO},       {MINIRT_COST},
-=======
-    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"}, {MINIRTC},
-    {MINIRT_RENDER},   {MINIRT_COMPARE},     {MINIRT_HELLO},        {MINIRT_BENCH},
->>>>>>> bench
+    {MINIRTC, "bake"}, {MINIRTC, "inspect"}, {MINIRTC, "validate"}, {MINIRTC, "devices"}, {MINIRTC, "levers"}, {MINIRTC},
+    {MINIRT_RENDER},   {MINIRT_COMPARE},     {MINIRT_HELLO},        {MINIRT_BENCH},       {MINIRT_COST},
 #ifdef MINIRT_VIEWER
     {MINIRT_VIEWER},
 #endif
