@@ -70,6 +70,7 @@ cost::Measurement measured(cost::Configuration configuration, double slowdown, d
     m.error.relMse = relMse;
     m.relMse = {relMse, relMse, relMse};
     m.sameSamples.wrongPixels = wrongPixels;
+    m.sameSamples.relMse = std::max(relMse - 0.01, 0.0);  // the rest is the noise of few samples
     m.error.ofPixels.assign(1200, static_cast<float>(relMse));
     m.picture = constantPicture(0.25f);
     return m;
@@ -218,6 +219,16 @@ TEST_CASE("sentences say where nothing changes, and where nothing can be told") 
     CHECK(said(3, 0.005) == "8 samples instead of 4 take 3.00 times as long and remove 50 % of the error.");
     CHECK(cost::verdict(compared(3, 0.005)) == "trade");
     CHECK(said(0.8, 0.012) == "8 samples instead of 4 save 20 % of the time and add 20 % to the error.");
+}
+
+TEST_CASE("a cheap setting that misses bright sparks has less noise, and is wrong all the same") {
+    cost::Measurement accurate = measured({2, 1, 1}, 1, 0.01, 0);
+    cost::Measurement cheap = measured({0, 1, 1}, 0.5, 0.004, 0.01);
+    cheap.sameSamples.relMse = 0.01 / 9;
+    const cost::Comparison compared =
+        cost::compareLevers({fresnelLever(), idleLever(), samplesLever()}, {accurate, cheap}, 1).front();
+    CHECK(compared.change == cost::ErrorChange::less);
+    CHECK(compared.removed == doctest::Approx(0.1));
 }
 
 TEST_CASE("differences that chance could make are none") {

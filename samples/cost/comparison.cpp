@@ -22,12 +22,30 @@ struct ErrorPair {
     bool differ = false;
 };
 
-/// The mean difference of the pixels is worth a word and beyond three standard errors, or more pixels look wrong.
+/// Whether a lever changes how many samples there are or which, not what one of them shows.
+bool changesSamples(LeverKind kind) {
+    return kind == LeverKind::samples || kind == LeverKind::integrator;
+}
+
+bool morePixelsAreWrong(const Measurement& cheap, const Measurement& accurate) {
+    return std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
+}
+
+/// Pictures that repeat bit for bit share the noise of their few samples: on top of it comes what the cheap one gets wrong at these very samples. That it
+/// may get a bright spark wrong and so have less noise is no merit.
 ErrorPair deterministicErrors(const Measurement& cheap, const Measurement& accurate) {
+    ErrorPair pair;
+    pair.accurate = accurate.error.relMse;
+    pair.cheap = pair.accurate + std::max(cheap.sameSamples.relMse - accurate.sameSamples.relMse, 0.0);
+    pair.differ = pair.cheap - pair.accurate > kNoticeable * pair.cheap || morePixelsAreWrong(cheap, accurate);
+    return pair;
+}
+
+/// The mean difference of the pixels is worth a word and beyond three standard errors, or more pixels look wrong.
+ErrorPair sampledErrors(const Measurement& cheap, const Measurement& accurate) {
     ErrorPair pair = {cheap.error.relMse, accurate.error.relMse, false};
     const double noticeable = kNoticeable * std::max(pair.cheap, pair.accurate);
-    pair.differ = !isChance(pairedDifference(cheap.error, accurate.error), noticeable) ||
-                  std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
+    pair.differ = !isChance(pairedDifference(cheap.error, accurate.error), noticeable) || morePixelsAreWrong(cheap, accurate);
     return pair;
 }
 
@@ -68,7 +86,8 @@ Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<M
     const bool random = singles[0].bias.standardError > 0;
     const ErrorPair errors =
         random ? noisyErrors(cheap, accurate, singles[at].shift, levers[lever].kind == LeverKind::samples ? 1 : moreSamples)
-               : deterministicErrors(cheap, accurate);
+        : changesSamples(levers[lever].kind) ? sampledErrors(cheap, accurate)
+                                             : deterministicErrors(cheap, accurate);
     double error = 0;
     if (errors.differ) {
         c.removed = 1 - errors.accurate / std::max(errors.cheap, 1e-30);
