@@ -21,6 +21,9 @@ public:
 
     minirt_device_info info() const;
 
+    /// For calls that this class has no method for; it stays the device's.
+    minirt_context* context() const { return context_; }
+
 private:
     static void keepMessage(void* self, minirt_log_level level, const char* message);
 
