@@ -5,6 +5,7 @@
 
 #include "../common/command_line.hpp"
 #include "bake_levers.hpp"
+#include "hard_case_levers.hpp"
 #include "page.hpp"
 #include "report_json.hpp"
 #include "study.hpp"
@@ -17,6 +18,7 @@ struct Options {
     std::string json;
     std::string device;
     std::string size;
+    bool hardCases = false;
     cost::StudyOptions study;
 };
 
@@ -40,6 +42,8 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--budget-ms", o.study.budgetMs,
                    "Name the settings with the least error whose picture takes no longer than this")
         ->check(CLI::PositiveNumber);
+    app.add_flag("--hard-cases", o.hardCases,
+                 "Also run the scenes in which rounding shows, with each setting of the levers (minutes)");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
 }
 
@@ -75,6 +79,7 @@ cost::Report run(const Options& options) {
     const cost::BlobFacts facts =
         cost::readBlobFacts(report.baked ? baker.blobOf(baked, initialConfiguration(baked)) : options.scene);
     cost::study(scenes, facts, report.device.is_cpu != 0, study, progress, report);
+    if (options.hardCases) report.hardCases = cost::runHardCases(device, progress);
     return report;
 }
 

@@ -236,6 +236,25 @@ std::string picturesSection(const Report& report) {
     return element("h2", "", "Pictures and where they are wrong") + scale + element("div", "class=\"pictures\"", pairs);
 }
 
+std::string hardCasesSection(const Report& report) {
+    if (report.hardCases.empty()) return "";
+    std::string rows;
+    for (const HardCases& row : report.hardCases) {
+        std::string broken;
+        for (const std::string& one : row.broken) broken += (broken.empty() ? "" : "<br>") + escaped(one);
+        rows += element("tr", "",
+                        cell(std::to_string(row.held) + " of " + std::to_string(row.all)) + cell(escaped(row.settings)) +
+                            element("td", "class=\"words\"", broken));
+    }
+    const std::string text =
+        "Small scenes in which rounding shows, each with a figure and its bound: what this scene may not show, another one will.";
+    return element("h2", "", "Hard cases") + element("p", "", text) +
+           element("div", "class=\"scroll\" tabindex=\"0\"",
+                   element("table", "",
+                           element("thead", "", "<tr><th>held</th><th>Settings</th><th>broken</th></tr>") +
+                               element("tbody", "", rows)));
+}
+
 std::string methodSection(const Report& report) {
     const Measurement& own = report.measurements.front();
     const Reference& r = report.reference;
@@ -286,7 +305,8 @@ std::string foot(const Report& report) {
 
 std::string page(const Report& report) {
     const std::string body = head(report) + findingsList(report) + plotSection(report) + leversSection(report) +
-                             tableSection(report) + picturesSection(report) + methodSection(report) + foot(report);
+                             tableSection(report) + picturesSection(report) + hardCasesSection(report) + methodSection(report) +
+                             foot(report);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
            "content=\"width=device-width, initial-scale=1\">\n" +
            element("title", "", "What accuracy costs: " + escaped(report.scene)) + element("style", "", kPageStyle) +

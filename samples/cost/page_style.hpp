@@ -48,6 +48,7 @@ table { border-collapse: collapse; font-size: .86rem; width: 100%; font-variant-
 th, td { padding: .35rem .6rem; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; } tbody tr:last-child td { border-bottom: 0; }
 th:nth-child(2), td:nth-child(2) { text-align: left; white-space: normal; min-width: 11rem; }
+td.words { text-align: left; white-space: normal; min-width: 16rem; }
 td.front { font-weight: 700; color: var(--front); }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: .4rem; margin: .4rem 0 1.2rem; }
 .pair p { grid-column: 1 / -1; margin: 0; }

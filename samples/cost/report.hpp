@@ -7,6 +7,13 @@
 
 namespace cost {
 
+/// How many of the hard cases hold with some settings of the levers.
+struct HardCases {
+    std::string settings;
+    size_t held = 0, all = 0;
+    std::vector<std::string> broken;  // what was looked at, with figure and bound
+};
+
 struct Report {
     std::string scene;    // its file's name
     std::string command;  // to run it again
@@ -27,6 +34,8 @@ struct Report {
     std::optional<BudgetChoice> choice;
     double choiceMs = 0;      // of the choice, measured
     double choiceRelMse = 0;  // likewise
+
+    std::vector<HardCases> hardCases;  // empty: not asked for
 
     uint32_t samples() const { return samplesOf(levers, measurements.front().configuration); }
     /// What a measurement is called: its difference from the scene's own settings.

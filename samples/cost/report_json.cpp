@@ -106,6 +106,8 @@ std::string reportJson(const Report& report) {
     json["failures"] = Json::array();
     for (const Failure& f : report.failures)
         json["failures"].push_back({{"settings", settingsJson(report.levers, f.configuration)}, {"reason", f.reason}});
+    for (const HardCases& row : report.hardCases)
+        json["hard_cases"].push_back({{"settings", row.settings}, {"held", row.held}, {"all", row.all}, {"broken", row.broken}});
     if (report.budgetMs > 0) json["budget"] = budgetJson(report);
     return json.dump(2) + "\n";
 }
