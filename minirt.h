@@ -110,8 +110,8 @@ typedef struct minirt_uvec4 {
 #define MINIRT_TRAVERSAL_WORDS 10u
 #define MINIRT_SEGMENT_WORDS(volumes) (10u + (volumes))
 
-/* Queues of the wavefront: each has a header, which an indirect dispatch reads: groups, 1, 1, paths; then come the paths of each. Of the four
-   from the first even or the first odd one on, a round empties all. */
+/* Queues of the wavefront: each has a header, which an indirect dispatch reads: groups, 1, 1, paths; then come the paths of each.
+   A round of an even number empties the first four, one of an odd number the last four. */
 #define MINIRT_QUEUE_EVEN_RAYS 0u
 #define MINIRT_QUEUE_EVEN_SHADOWS 1u
 #define MINIRT_QUEUE_HITS 2u
@@ -237,10 +237,10 @@ struct minirt_frame {
     minirt_vec4 forward;   /* unit; w: radius of the lens */
     minirt_vec4 right;     /* scaled to the half width of the image at distance 1; w: distance in focus */
     minirt_vec4 up;        /* scaled to its half height; w: limit of what one path may add, 0: none */
-    minirt_uvec4 size;     /* x, y: image; z: room for waiting segments; w: 1 in the last pass */
+    minirt_uvec4 size;     /* x, y: image; z: room for waiting segments or in a queue; w: 1 in the last pass */
     minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
     minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, z: seed, w: words of state a slot */
-    minirt_uvec4 sampling; /* x: sample index, y: MINIRT_FRAME_ flags, z: depth limit, w: 1 to go on with saved ones */
+    minirt_uvec4 sampling; /* x: sample index, y: MINIRT_FRAME_ flags, z: depth limit, w: 1: goes on; the round's parity */
 };
 
 struct minirt_counters {
@@ -488,9 +488,8 @@ typedef struct minirt_render_desc {
     uint32_t first_sample;        /* index of the first */
     uint32_t max_depth;           /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
     minirt_integrator integrator; /* 0: the scene's */
-    uint32_t
-        light_sampling; /* of the path tracers: MINIRT_LIGHT_SAMPLING_; all give the same picture in the mean, the first with the least noise */
-    uint32_t seed;           /* of the path tracers: another one gives another picture with noise of its own */
+    uint32_t light_sampling;      /* of the path tracers: MINIRT_LIGHT_SAMPLING_; same mean, the first with the least noise */
+    uint32_t seed;                /* of the path tracers: another one gives another picture with noise of its own */
     float throughput_cutoff; /* of Whitted's tracer: rays end that carry no more in any channel; 0: the scene's, below 0: none */
     float clamp;             /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
     const minirt_camera* camera;       /* NULL: the scene's */
@@ -1054,6 +1053,7 @@ struct minirt_context {
     VkPhysicalDeviceLimits limits = {};
     VkPhysicalDeviceMemoryProperties memoryProperties = {};
     uint32_t stepBudget = 0;       // of a pixel in a dispatch
+    bool hasBallots = false;       // in subgroups, by which the wavefront fills its queues
     double timestampPeriodNs = 0;  // 0: the queue has no timestamps
     uint64_t timestampMask = 0;
     VkCommandPool commandPool = VK_NULL_HANDLE;
@@ -1380,6 +1380,8 @@ inline void readDeviceProperties(minirt_context* c, uint32_t timestampBits) {
     c->vk.GetPhysicalDeviceProperties2(c->physicalDevice, &properties);
     c->vk.GetPhysicalDeviceMemoryProperties(c->physicalDevice, &c->memoryProperties);
     c->limits = properties.properties.limits;
+    c->hasBallots = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+                    (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT);
     /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel whose own
        passes stay below 65535 / subgroup size can never get there. The margin is for saving and loading a traversal's stack. */
     c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
@@ -1966,7 +1968,8 @@ inline bool aimCamera(const minirt_scene* s, const minirt_camera& camera, minirt
    driver runs both sides of every branch; one kernel on a GPU, which need not keep paths in memory (docs/performance.md). */
 inline minirt_integrator defaultIntegrator(const minirt_scene* s) {
     if (s->desc.integrator == MINIRT_INTEGRATOR_WHITTED) return MINIRT_INTEGRATOR_WHITTED;
-    const minirt_integrator faster = s->context->info.is_cpu ? MINIRT_INTEGRATOR_WAVEFRONT : MINIRT_INTEGRATOR_PATH;
+    const bool waves = s->context->info.is_cpu && s->context->hasBallots;
+    const minirt_integrator faster = waves ? MINIRT_INTEGRATOR_WAVEFRONT : MINIRT_INTEGRATOR_PATH;
     return hasIntegrator(s, faster) ? faster : static_cast<minirt_integrator>(s->desc.integrator);
 }
 
@@ -2212,6 +2215,9 @@ inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     if (minirt_result r = resolveDesc(job, desc)) return r;
     if (!hasIntegrator(s, job->desc.integrator))
         return fail(c, MINIRT_ERROR_NO_KERNEL, "the blob holds no kernel for this integrator; bake the scene with it");
+    if (job->desc.integrator == MINIRT_INTEGRATOR_WAVEFRONT && !c->hasBallots)
+        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
+                    "the wavefront needs subgroup ballots, which this device lacks; use the integrator 'path'");
     if (minirt_result r = activateIntegrator(s, job->desc.integrator)) return r;
     const minirt_region& region = job->desc.region;
     job->blockCount = ((region.width + 7) / 8) * ((region.height + 7) / 8);

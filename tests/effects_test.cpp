@@ -1,8 +1,6 @@
 #include "effects.hpp"
 
 #include <doctest/doctest.h>
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "glsl.hpp"
 #include "kernel.hpp"
 #include "minirt.h"
 
@@ -108,17 +107,9 @@ std::vector<Effect> effectsOf(const std::string& kernel) {
     return effects;
 }
 
-/// The front end alone: finds what is missing or there twice, in a fiftieth of the time of a whole compilation.
 void parseKernel(const std::string& kernel, const EffectSet& effects) {
-    const std::string source = composeKernel(kernel, effects);
-    const char* text = source.c_str();
-    glslang::TShader shader(EShLangCompute);
-    shader.setStrings(&text, 1);
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
-    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
-    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-    if (!shader.parse(GetDefaultResources(), 460, false, messages)) throw std::runtime_error(shader.getInfoLog());
+    const test::ParsedGlsl glsl = test::parseGlsl(composeKernel(kernel, effects));
+    if (!glsl.parsed) throw std::runtime_error(glsl.shader->getInfoLog());
 }
 
 void compileWhole(const std::string& kernel, const EffectSet& effects) {

@@ -57,6 +57,7 @@ TEST_CASE("the settings of the seed lose the cases that are known of them") {
                                            "reflectance from outside",
                                            "reflectance from inside",
                                            "absorption",
+                                           "dispersion",
                                            "hidden surfaces"};
     for (const HardCaseResult& result : results) {
         CAPTURE(result.name);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "image_text.hpp"
 #include "scene.hpp"
 #include "support.hpp"
 
@@ -17,17 +18,9 @@ extern "C" const char* __lsan_default_suppressions() {
 
 namespace {
 
-/// An uncompressed 32-bit .tga, rows from the top.
-std::string tga(int width, int height, const std::vector<std::array<unsigned char, 4>>& rgba) {
-    std::string bytes(18, '\0');
-    bytes[2] = 2;
-    bytes[12] = static_cast<char>(width & 255), bytes[13] = static_cast<char>(width >> 8);
-    bytes[14] = static_cast<char>(height & 255), bytes[15] = static_cast<char>(height >> 8);
-    bytes[16] = 32;
-    bytes[17] = 0x28;
-    for (const auto& c : rgba)
-        for (const int i : {2, 1, 0, 3}) bytes += static_cast<char>(c[i]);
-    return bytes;
+/// An uncompressed 32-bit .tga of these texels, row by row.
+std::string tga(int width, int height, const std::vector<test::Rgba>& texels) {
+    return test::tga(width, height, [&](int x, int y) { return texels[static_cast<size_t>(y * width + x)]; });
 }
 
 /// A flat (not run-length coded) .hdr of one row.
@@ -104,7 +97,7 @@ TEST_CASE("bad images are named with the reason") {
     CHECK(error(dir.write("empty.png", "")) == "empty.png: the image is empty or a folder; check the path");
     CHECK(error(dir.write("text.png", "no image at all, just words")) ==
           "text.png: the image cannot be read (unknown image type); give a .jpg, .png, .bmp, .tga, .hdr or .exr file");
-    CHECK(error(dir.write("large.tga", tga(16385, 1, {}))) ==
+    CHECK(error(dir.write("large.tga", test::tga(16385, 1, [](int, int) { return test::Rgba{}; }))) ==
           "large.tga: the image has 16385 x 1 texels; scale it to at most 16384 on a side");
     CHECK(error(writeExr(dir, {1, 1, 1, 1, 1, nan, 1, 1}, 2, 1)) ==
           "i.exr: the texel in column 1 of row 0 is NaN; repair the image; radiance is finite and not negative");

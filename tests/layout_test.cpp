@@ -1,12 +1,11 @@
 #include <doctest/doctest.h>
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
 
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
 
+#include "glsl.hpp"
 #include "kernel.hpp"
 #include "minirt.h"
 #include "shader_library.hpp"
@@ -109,21 +108,13 @@ std::string withProbes(std::string kernel) {
 
 /// Each variable of a shared struct as the kernel with every effect lays it out.
 std::map<std::string, Layout> reflectKernel() {
-    glslang::InitializeProcess();
     EffectSet effects;
     includeAll(effects);
-    const std::string source = withProbes(composeKernel("whitted", effects));
-    const char* text = source.c_str();
-    glslang::TShader shader(EShLangCompute);
-    shader.setStrings(&text, 1);
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
-    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
-    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-    REQUIRE_MESSAGE(shader.parse(GetDefaultResources(), 460, false, messages), shader.getInfoLog());
+    const test::ParsedGlsl glsl = test::parseGlsl(withProbes(composeKernel("whitted", effects)));
+    REQUIRE_MESSAGE(glsl.parsed, glsl.shader->getInfoLog());
     glslang::TProgram program;
-    program.addShader(&shader);
-    REQUIRE(program.link(messages));
+    program.addShader(glsl.shader.get());
+    REQUIRE(program.link(test::kGlslMessages));
     REQUIRE(program.buildReflection(EShReflectionAllBlockVariables));
 
     std::map<std::string, Layout> layouts;

@@ -9,71 +9,16 @@
 
 #include "error.hpp"
 #include "image_text.hpp"
+#include "path_scene.hpp"
 #include "runtime_hooks.hpp"
-#include "scene_text.hpp"
 
 using glm::dvec3;
 using namespace test;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-/// The members "camera" and "render" for a path tracer that takes light from lamps directly.
-std::string start(const View& view) {
-    std::string text = view.text();
-    const std::string render = quoted("render") + "{";
-    return "{" + text.insert(text.find(render) + render.size(), R"("integrator":"path",)") + ",";
-}
-
-std::string lambert(double albedo) {
-    return R"({"model":"pbr","ior":1,"baseColor":)" + json(dvec3(albedo)) + "}";
-}
-
-std::string rectangleLight(const dvec3& origin, const dvec3& u, const dvec3& v, double radiance) {
-    return R"({"type":"rectangle","origin":)" + json(origin) + R"(,"u":)" + json(u) + R"(,"v":)" + json(v) + R"(,"radiance":)" +
-           json(dvec3(radiance)) + "}";
-}
-
 LoadedScene load(const GpuContext& gpu, const TemporaryDir& dir, const std::string& scene) {
     return LoadedScene(gpu, bakeScene(dir, scene));
-}
-
-/// `samples` a pixel, or as many on a finer grid of pixels, which takes fewer dispatches.
-Picture render(const LoadedScene& scene, uint32_t samples, uint32_t strategy = MINIRT_LIGHT_SAMPLING_MIS, uint32_t seed = 0,
-               uint32_t finer = 1) {
-    minirt_scene_desc defaults;
-    minirt_get_scene_desc(scene.get(), &defaults);
-    minirt_render_desc desc = {};
-    desc.width = defaults.width * finer, desc.height = defaults.height * finer;
-    desc.samples = samples / (finer * finer);
-    desc.light_sampling = strategy;
-    desc.seed = seed;
-    return scene.render(desc);
-}
-
-double meanOf(const Picture& picture) {
-    double sum = 0;
-    for (uint32_t y = 0; y < picture.height; ++y)
-        for (uint32_t x = 0; x < picture.width; ++x) sum += glm::dot(dvec3(picture.at(x, y)), dvec3(1.0 / 3));
-    return sum / (double{1} * picture.width * picture.height);
-}
-
-/// Of pictures with seeds of their own: the mean of their means, and how far off it may be (one sigma).
-struct Estimate {
-    double mean, sigma;
-};
-
-Estimate estimate(const LoadedScene& scene, uint32_t samples, uint32_t strategy = MINIRT_LIGHT_SAMPLING_MIS) {
-    constexpr int kSeeds = 16;
-    uint32_t finer = 1;
-    while (4 * finer * finer <= samples) finer *= 2;
-    double sum = 0, squares = 0;
-    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
-        const double mean = meanOf(render(scene, samples, strategy, seed, finer));
-        sum += mean, squares += mean * mean;
-    }
-    return {sum / kSeeds, std::sqrt(std::max(squares / kSeeds - sum * sum / kSeeds / kSeeds, 0.0) / (kSeeds - 1))};
 }
 
 /// Irradiance of a floor at p with normal +Y from a rectangle of radiance 1, by its middles; `pass`: the share that comes through, by the cosine at p.
@@ -105,14 +50,14 @@ std::string complaint(const TemporaryDir& dir, const std::string& scene) {
     return "";
 }
 
-const std::string kFloor = R"("materials":{"m":)" + lambert(0.5) + R"(},"objects":[)" + floorOf("m") + "]}";
+const std::string kFloor = R"("materials":{"m":)" + lambert(dvec3(0.5)) + R"(},"objects":[)" + floorOf("m") + "]}";
 
 }  // namespace
 
 TEST_CASE("lamps without area are refused or left out") {
     const TemporaryDir dir;
-    const std::string view = start(View{{0, 2, 5}, {0, 0, 0}, 30, 16, {0, 1, 0}, 2});
-    CHECK(complaint(dir, view + R"("lights":[)" + rectangleLight({0, 1, 0}, {1, 0, 0}, {2, 0, 0}, 1) + "]," + kFloor)
+    const std::string view = pathStart(View{{0, 2, 5}, {0, 0, 0}, 30, 16, {0, 1, 0}, 2});
+    CHECK(complaint(dir, view + R"("lights":[)" + rectangleLight({0, 1, 0}, {1, 0, 0}, {2, 0, 0}, dvec3(1)) + "]," + kFloor)
               .find("has no area") != std::string::npos);
     CHECK(complaint(dir, view + R"("lights":[{"type":"sphere","center":[0,1,0],"radius":0,"radiance":[1,1,1]}],)" + kFloor)
               .find("radius") != std::string::npos);
@@ -120,14 +65,14 @@ TEST_CASE("lamps without area are refused or left out") {
     if (!gpu) return;
     const auto lit = [&](const std::string& faces) {
         dir.write("lamp.obj", "v -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\nv 0 2 0\nv 0 2 0\n" + faces);
-        return render(load(gpu, dir,
-                           view + R"("materials":{"m":)" + lambert(0.5) + R"(,"glow":)" + glow(3) + R"(},"objects":[)" +
-                               floorOf("m") + R"(,{"mesh":"lamp.obj","material":"glow"}]})"),
-                      4);
+        return renderPath(load(gpu, dir,
+                               view + R"("materials":{"m":)" + lambert(dvec3(0.5)) + R"(,"glow":)" + glow(3) +
+                                   R"(},"objects":[)" + floorOf("m") + R"(,{"mesh":"lamp.obj","material":"glow"}]})"),
+                          4);
     };
     const std::string faces = "f 1 2 3\nf 1 3 4\n";
     const Picture whole = lit(faces);
-    CHECK(meanOf(whole) > 0.1);
+    CHECK(meanOf(whole).y > 0.1);
     CHECK(lit(faces + "f 1 2 2\nf 1 5 6\nf 1 5 3\n") == whole);  // corners in one place, or on one line
 }
 
@@ -136,15 +81,15 @@ TEST_CASE("a black panorama is as no background") {
     if (!gpu) return;
     const TemporaryDir dir;
     dir.write("black.tga", tga(4, 2, [](int, int) { return Rgba{0, 0, 0, 255}; }));
-    const std::string view = start(View{{0, 2, 5}, {0, 0, 0}, 40, 16});
-    const std::string lamp = R"("lights":[)" + rectangleLight({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, 3) + "],";
+    const std::string view = pathStart(View{{0, 2, 5}, {0, 0, 0}, 40, 16});
+    const std::string lamp = R"("lights":[)" + rectangleLight({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, dvec3(3)) + "],";
     const std::string image = R"("background":{"image":"black.tga"},)";
     const LoadedScene dark = load(gpu, dir, view + image + kFloor);
     for (const uint32_t strategy : {MINIRT_LIGHT_SAMPLING_MIS, MINIRT_LIGHT_SAMPLING_LIGHTS, MINIRT_LIGHT_SAMPLING_SURFACES})
-        CHECK(meanOf(render(dark, 2, strategy)) == 0);
-    const Picture with = render(load(gpu, dir, view + lamp + image + kFloor), 2);
-    CHECK(with == render(load(gpu, dir, view + lamp + kFloor), 2));
-    CHECK(meanOf(with) > 0);
+        CHECK(meanOf(renderPath(dark, 2, strategy)).y == 0);
+    const Picture with = renderPath(load(gpu, dir, view + lamp + image + kFloor), 2);
+    CHECK(with == renderPath(load(gpu, dir, view + lamp + kFloor), 2));
+    CHECK(meanOf(with).y > 0);
 }
 
 TEST_CASE("textures of one texel are constants") {
@@ -156,22 +101,22 @@ TEST_CASE("textures of one texel are constants") {
     const auto scene = [&](const std::string& material, const std::string& background) {
         return load(
             gpu, dir,
-            start(View{{0, 2, 4}, {0, 0, 0}, 40, 16}) + R"("background":{)" + background +
+            pathStart(View{{0, 2, 4}, {0, 0, 0}, 40, 16}) + R"("background":{)" + background +
                 R"(},"materials":{"m":{"model":"pbr",)" + material +
                 R"("metallic":0.5,"roughness":0.4,"emissive":[0.2,0.2,0.2],"alpha":0.8,"alphaMode":"blend"}},"objects":[)" +
                 floorOf("m") + "," + rectangle({-1, 0.1, 0}, {2, 0, 0}, {0, 1.5, 0}, "m") + "]}");
     };
-    const Picture constants = render(scene("", R"("color":[1,1,1])"), 16);
+    const Picture constants = renderPath(scene("", R"("color":[1,1,1])"), 16);
     const Picture images =
-        render(scene(R"("baseColor":"white.tga","metallicRoughnessTexture":"white.tga","emissiveTexture":"white.tga",)",
-                     R"("image":"white.tga")"),
-               16);
-    const Picture flat = render(scene(R"("normalTexture":"flat.tga",)", R"("image":"white.tga")"), 16);
+        renderPath(scene(R"("baseColor":"white.tga","metallicRoughnessTexture":"white.tga","emissiveTexture":"white.tga",)",
+                         R"("image":"white.tga")"),
+                   16);
+    const Picture flat = renderPath(scene(R"("normalTexture":"flat.tga",)", R"("image":"white.tga")"), 16);
     for (uint32_t i = 0; i < 256; ++i) {
         const dvec3 expected(constants.at(i % 16, i / 16));
         REQUIRE(glm::length(dvec3(images.at(i % 16, i / 16)) - expected) < 1e-5);
     }
-    CHECK(std::abs(meanOf(flat) / meanOf(constants) - 1) < 0.01);  // 128 of 255 is not quite the middle
+    CHECK(std::abs(meanOf(flat).y / meanOf(constants).y - 1) < 0.01);  // 128 of 255 is not quite the middle
 }
 
 TEST_CASE("a texture of 8192 by 8192 texels, or an error where the device has no room for it") {
@@ -187,7 +132,7 @@ TEST_CASE("a texture of 8192 by 8192 texels, or an error where the device has no
     const double half = std::tan(glm::radians(20.0));
     const auto blob = bakeScene(
         dir,
-        start(view) +
+        pathStart(view) +
             R"("background":{"color":[1,1,1]},"materials":{"m":{"model":"pbr","ior":1,"baseColor":"big.tga","textureWrap":"clamp"}},"objects":[)" +
             rectangle({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}, "m") + "]}");
     {
@@ -200,7 +145,7 @@ TEST_CASE("a texture of 8192 by 8192 texels, or an error where the device has no
     }
     GpuContext gpu;
     const auto before = std::chrono::steady_clock::now();
-    const Picture picture = render(LoadedScene(gpu, blob), 16, MINIRT_LIGHT_SAMPLING_SURFACES);
+    const Picture picture = renderPath(LoadedScene(gpu, blob), 16, MINIRT_LIGHT_SAMPLING_SURFACES);
     MESSAGE("loaded, uploaded and rendered in ", std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count(),
             " s");
     const auto linear = [](double byte) {
@@ -246,20 +191,21 @@ TEST_CASE("a lamp of a hundred thousand triangles gives the light of a rectangle
     const TemporaryDir dir;
     const View view{{0, 3, 6}, {0, 0, 0}, 30, 16, {0, 1, 0}, 0};
     const LoadedScene whole =
-        load(gpu, dir, start(view) + R"("lights":[)" + rectangleLight({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, 3) + "]," + kFloor);
+        load(gpu, dir,
+             pathStart(view) + R"("lights":[)" + rectangleLight({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, dvec3(3)) + "]," + kFloor);
     for (const double warp : {1.0, 2.0}) {
         CAPTURE(warp);
         dir.write("lamp.obj", finelyCut(224, warp));
         const LoadedScene cut = load(gpu, dir,
-                                     start(view) + R"("materials":{"m":)" + lambert(0.5) + R"(,"glow":)" + glow(3) +
+                                     pathStart(view) + R"("materials":{"m":)" + lambert(dvec3(0.5)) + R"(,"glow":)" + glow(3) +
                                          R"(},"objects":[)" + floorOf("m") + R"(,{"mesh":"lamp.obj","material":"glow"}]})");
         for (const uint32_t strategy : {MINIRT_LIGHT_SAMPLING_MIS, MINIRT_LIGHT_SAMPLING_LIGHTS}) {
             const Estimate one = estimate(whole, 16, strategy), other = estimate(cut, 16, strategy);
-            MESSAGE("rectangle ", one.mean, " +- ", one.sigma, ", ", 2 * 224 * 224, " triangles ", other.mean, " +- ",
-                    other.sigma);
-            CHECK(std::abs(one.mean - other.mean) < 4 * std::hypot(one.sigma, other.sigma));
-            CHECK(other.sigma < 3 * one.sigma);
-            CHECK(one.sigma < 0.01 * one.mean);
+            MESSAGE("rectangle ", one.mean.y, " +- ", one.sigma.y, ", ", 2 * 224 * 224, " triangles ", other.mean.y, " +- ",
+                    other.sigma.y);
+            CHECK(std::abs(one.mean.y - other.mean.y) < 4 * std::hypot(one.sigma.y, other.sigma.y));
+            CHECK(other.sigma.y < 3 * one.sigma.y);
+            CHECK(one.sigma.y < 0.01 * one.mean.y);
         }
     }
 }
@@ -282,14 +228,14 @@ TEST_CASE("lamps whose powers differ a million times, and sizes as much, light a
     std::string all;
     double sum = 0;
     const auto check = [&](const std::string& name, const std::string& lights, double expected) {
-        const LoadedScene scene = load(gpu, dir, start(view) + R"("lights":[)" + lights + "]," + kFloor);
+        const LoadedScene scene = load(gpu, dir, pathStart(view) + R"("lights":[)" + lights + "]," + kFloor);
         const Estimate measured = estimate(scene, 256);
-        MESSAGE(name, ": ", measured.mean, " +- ", measured.sigma, ", by the formula ", expected);
-        CHECK(std::abs(measured.mean - expected) < 4 * measured.sigma + 0.005 * expected);
-        CHECK(measured.sigma < 0.05 * expected);
+        MESSAGE(name, ": ", measured.mean.y, " +- ", measured.sigma.y, ", by the formula ", expected);
+        CHECK(std::abs(measured.mean.y - expected) < 4 * measured.sigma.y + 0.005 * expected);
+        CHECK(measured.sigma.y < 0.05 * expected);
     };
     for (const Lamp& lamp : lamps) {
-        const std::string light = rectangleLight(lamp.origin, lamp.u, lamp.v, lamp.radiance);
+        const std::string light = rectangleLight(lamp.origin, lamp.u, lamp.v, dvec3(lamp.radiance));
         const double expected = 0.5 / kPi * lamp.radiance * irradiance({0, 0, 0}, lamp.origin, lamp.u, lamp.v, everything);
         check(lamp.name, light, expected);
         all += (all.empty() ? "" : ",") + light;
@@ -305,9 +251,9 @@ TEST_CASE("a lamp a tenth of a millimetre before a wall lights what it faces") {
     constexpr double kGap = 1e-4, kLamp = 0.1;
     // A strip along z over x in [-0.1, 0], seen from its side; the wall is the floor.
     const View view{{0.01, 0.01, 0}, {0.0006, 0, 0}, 0.5, 16, {0, 1, 0}, 0};
-    const LoadedScene scene =
-        load(gpu, dir,
-             start(view) + R"("lights":[)" + rectangleLight({-kLamp, kGap, -2}, {kLamp, 0, 0}, {0, 0, 4}, 1) + "]," + kFloor);
+    const LoadedScene scene = load(gpu, dir,
+                                   pathStart(view) + R"("lights":[)" +
+                                       rectangleLight({-kLamp, kGap, -2}, {kLamp, 0, 0}, {0, 0, 4}, dvec3(1)) + "]," + kFloor);
     // Of a strip without end: half of the difference of the sines under which its edges are seen.
     double expected = 0;
     constexpr int kSplit = 16;
@@ -321,9 +267,9 @@ TEST_CASE("a lamp a tenth of a millimetre before a wall lights what it faces") {
     }
     for (const uint32_t strategy : {MINIRT_LIGHT_SAMPLING_MIS, MINIRT_LIGHT_SAMPLING_SURFACES}) {
         const Estimate measured = estimate(scene, 1024, strategy);
-        MESSAGE("beside the lamp ", measured.mean, " +- ", measured.sigma, ", by the formula ", expected);
-        CHECK(std::abs(measured.mean - expected) < 4 * measured.sigma + 0.005 * expected);
-        CHECK(measured.sigma < 0.05 * expected);
+        MESSAGE("beside the lamp ", measured.mean.y, " +- ", measured.sigma.y, ", by the formula ", expected);
+        CHECK(std::abs(measured.mean.y - expected) < 4 * measured.sigma.y + 0.005 * expected);
+        CHECK(measured.sigma.y < 0.05 * expected);
     }
 }
 
@@ -333,8 +279,9 @@ TEST_CASE("a lamp that shines away from a wall close behind it leaves that dark"
     const TemporaryDir dir;
     const View view{{0.01, 0.01, 0}, {0.0006, 0, 0}, 0.5, 16, {0, 1, 0}, 0};
     const LoadedScene scene = load(
-        gpu, dir, start(view) + R"("lights":[)" + rectangleLight({-0.1, 1e-4, -2}, {0, 0, 4}, {0.1, 0, 0}, 1) + "]," + kFloor);
-    CHECK(meanOf(render(scene, 16)) == 0);
+        gpu, dir,
+        pathStart(view) + R"("lights":[)" + rectangleLight({-0.1, 1e-4, -2}, {0, 0, 4}, {0.1, 0, 0}, dvec3(1)) + "]," + kFloor);
+    CHECK(meanOf(renderPath(scene, 16)).y == 0);
 }
 
 TEST_CASE("a lamp behind a sheet of thin glass, or one that is there in part, lights by what that lets through") {
@@ -361,16 +308,16 @@ TEST_CASE("a lamp behind a sheet of thin glass, or one that is there in part, li
     for (const auto& sheet : sheets) {
         const LoadedScene scene =
             load(gpu, dir,
-                 start(view) + R"("lights":[)" + rectangleLight(origin, u, v, 1) + R"(],"materials":{"m":)" + lambert(0.5) +
-                     R"(,"sheet":)" + sheet.material + R"(},"objects":[)" + floorOf("m") + "," +
+                 pathStart(view) + R"("lights":[)" + rectangleLight(origin, u, v, dvec3(1)) + R"(],"materials":{"m":)" +
+                     lambert(dvec3(0.5)) + R"(,"sheet":)" + sheet.material + R"(},"objects":[)" + floorOf("m") + "," +
                      rectangle({-9, 1, 9}, {18, 0, 0}, {0, 0, -18}, "sheet") + "]}");
         const double expected = 0.5 / kPi * irradiance({0, 0, 0}, origin, u, v, sheet.pass);
         for (const uint32_t strategy :
              {MINIRT_LIGHT_SAMPLING_MIS, MINIRT_LIGHT_SAMPLING_LIGHTS, MINIRT_LIGHT_SAMPLING_SURFACES}) {
             const Estimate measured = estimate(scene, 64, strategy);
-            MESSAGE(sheet.name, ": ", measured.mean, " +- ", measured.sigma, ", by the formula ", expected);
-            CHECK(std::abs(measured.mean - expected) <= 4 * measured.sigma + 1e-3 * expected);
-            CHECK(measured.sigma <= 0.03 * expected);
+            MESSAGE(sheet.name, ": ", measured.mean.y, " +- ", measured.sigma.y, ", by the formula ", expected);
+            CHECK(std::abs(measured.mean.y - expected) <= 4 * measured.sigma.y + 1e-3 * expected);
+            CHECK(measured.sigma.y <= 0.03 * expected);
         }
     }
 }
@@ -381,7 +328,8 @@ TEST_CASE("the limit of what a sample adds is off by default and only darkens") 
     const TemporaryDir dir;
     const View view{{0, 2, 4}, {0, 0.5, 0}, 40, 24, {0, 1, 0}, 4};
     const LoadedScene scene = load(
-        gpu, dir, start(view) + R"("lights":[)" + rectangleLight({-0.1, 0.3, 0}, {0.2, 0, 0}, {0, 0, 0.2}, 50) + "]," + kFloor);
+        gpu, dir,
+        pathStart(view) + R"("lights":[)" + rectangleLight({-0.1, 0.3, 0}, {0.2, 0, 0}, {0, 0, 0.2}, dvec3(50)) + "]," + kFloor);
     const auto limited = [&](float limit, uint32_t sample) {
         minirt_render_desc desc = {};
         desc.samples = 1;
@@ -421,15 +369,15 @@ TEST_CASE("a scene a hundred kilometres away looks as it does at the origin") {
             obj += "v " + json(at.x) + " " + json(at.y) + " " + json(at.z) + "\n";
         }
         dir.write("wedge.obj", obj + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
-        const LoadedScene scene =
-            load(gpu, dir,
-                 start(view) + R"("background":{"image":"sky.tga"},"lights":[)" +
-                     rectangleLight(dvec3(-1, 3, -1) + by, {2, 0, 0}, {0, 0, 2}, 3) + "," +
-                     pointLight(dvec3(2, 2, 2) + by, {3, 3, 3}, "inverse-square") + R"(],"materials":{"m":)" + lambert(0.5) +
-                     R"(,"gold":{"model":"pbr","metallic":1,"roughness":0.2,"baseColor":[1,0.8,0.3]},"glass":)" + glass(1.5) +
-                     R"(},"objects":[)" + rectangle(dvec3(-5, 0, 5) + by, {10, 0, 0}, {0, 0, -10}, "m") + "," +
-                     sphere(dvec3(0.8, 0.6, 0) + by, 0.6, "gold") + "," + wedge + "]}");
-        return render(scene, 16);
+        const LoadedScene scene = load(
+            gpu, dir,
+            pathStart(view) + R"("background":{"image":"sky.tga"},"lights":[)" +
+                rectangleLight(dvec3(-1, 3, -1) + by, {2, 0, 0}, {0, 0, 2}, dvec3(3)) + "," +
+                pointLight(dvec3(2, 2, 2) + by, {3, 3, 3}, "inverse-square") + R"(],"materials":{"m":)" + lambert(dvec3(0.5)) +
+                R"(,"gold":{"model":"pbr","metallic":1,"roughness":0.2,"baseColor":[1,0.8,0.3]},"glass":)" + glass(1.5) +
+                R"(},"objects":[)" + rectangle(dvec3(-5, 0, 5) + by, {10, 0, 0}, {0, 0, -10}, "m") + "," +
+                sphere(dvec3(0.8, 0.6, 0) + by, 0.6, "gold") + "," + wedge + "]}");
+        return renderPath(scene, 16);
     };
     const Picture here = picture({0, 0, 0}), there = picture({1e5, -1e5, 1e5});
     double sum = 0;
@@ -441,6 +389,6 @@ TEST_CASE("a scene a hundred kilometres away looks as it does at the origin") {
         different += error > 0.01;
     }
     MESSAGE("mean difference ", sum / 1024, ", pixels off by over 1 %: ", different, " of 1024");
-    CHECK(std::abs(meanOf(there) / meanOf(here) - 1) < 0.002);
+    CHECK(std::abs(meanOf(there).y / meanOf(here).y - 1) < 0.002);
     CHECK(different < 20);
 }

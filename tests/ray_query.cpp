@@ -158,6 +158,10 @@ void specialiseAsGpu(minirt_context* context) {
     context->info.is_cpu = 0;
 }
 
+void denyBallots(minirt_context* context) {
+    context->hasBallots = false;
+}
+
 void limitTexels(minirt_context* context, uint32_t texels) {
     context->limits.maxTexelBufferElements = texels;
 }

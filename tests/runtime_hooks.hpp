@@ -14,6 +14,9 @@ void setStepBudget(minirt_context* context, uint32_t steps);
 /// Specialises kernels from now on as for a GPU: private stacks, scene data in storage buffers, no interleaving. Keeps the budget of steps.
 void specialiseAsGpu(minirt_context* context);
 
+/// As if the device had no ballots in subgroups.
+void denyBallots(minirt_context* context);
+
 /// As if the device took no more in a texel buffer.
 void limitTexels(minirt_context* context, uint32_t texels);
 

@@ -1,12 +1,11 @@
 #include <doctest/doctest.h>
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
 
 #include <algorithm>
 #include <functional>
 #include <string>
 
 #include "exact.hpp"
+#include "glsl.hpp"
 #include "random.hpp"
 #include "shader_library.hpp"
 #include "shader_source.hpp"
@@ -164,20 +163,9 @@ TEST_CASE("the files are GLSL as well") {
         source += minirtc::shaderLibrary().at(part);
     }
     source += "void main() {}\n";
-    glslang::InitializeProcess();
-    {
-        glslang::TShader shader(EShLangCompute);
-        const char* text = source.c_str();
-        shader.setStrings(&text, 1);
-        shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
-        shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
-        shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-        const bool parsed =
-            shader.parse(GetDefaultResources(), 460, false, static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules));
-        INFO(shader.getInfoLog());
-        CHECK(parsed);
-    }
-    glslang::FinalizeProcess();
+    const test::ParsedGlsl glsl = test::parseGlsl(source);
+    INFO(glsl.shader->getInfoLog());
+    CHECK(glsl.parsed);
 }
 
 TEST_CASE("the hash is pcg4d and reals are multiples of 2^-24 below 1") {

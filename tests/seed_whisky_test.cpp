@@ -54,16 +54,6 @@ std::string sceneOf(double lap, int priority) {
            mesh("ice.obj", "ice", 1, 0, 2) + "," + rectangle({-30, -30, -6}, {60, 0, 0}, {0, 60, 0}, "wall") + "]}";
 }
 
-/// What the lit wall of the scene shows.
-dvec3 surroundings(const dvec3& p, const dvec3& d) {
-    const double t = (-6 - p.z) / d.z;
-    if (!(d.z < 0)) return dvec3(0.25);
-    const dvec3 q = p + t * d;
-    if (std::abs(q.x) > 30 || std::abs(q.y) > 30) return dvec3(0.25);
-    const double d2 = 4 + q.x * q.x + q.y * q.y;
-    return dvec3(0.5 * 40 * 2 / std::sqrt(d2) / d2);
-}
-
 /// The meshes of the scene as the compiler places them.
 class Drink {
 public:
@@ -113,7 +103,7 @@ Comparison compare(const Picture& picture, const std::vector<dvec3>& expected) {
     Comparison result;
     for (uint32_t i = 0; i < expected.size(); ++i) {
         const dvec3 seen(picture.at(i % kView.size, i / kView.size));
-        const dvec3 around = surroundings(kView.position, kView.direction(i % kView.size, i / kView.size));
+        const dvec3 around = litWall(kView.position, kView.direction(i % kView.size, i / kView.size));
         const double difference = glm::length(seen - expected[i]);
         result.mean += difference / static_cast<double>(expected.size());
         result.differ += difference > 0.02 * glm::length(expected[i]) ? 1 : 0;
@@ -125,7 +115,7 @@ Comparison compare(const Picture& picture, const std::vector<dvec3>& expected) {
 std::vector<dvec3> splitPicture(const TemporaryDir& dir, double lap) {
     const Drink drink(dir, lap);
     SplitScene scene(
-        drink.faces(), kMedia, [&](const dvec3& p, const dvec3& d) { return surroundings(p + drink.origin(), d); },
+        drink.faces(), kMedia, [&](const dvec3& p, const dvec3& d) { return litWall(p + drink.origin(), d); },
         [&](const SplitFace& face, const dvec3& p) { return drink.sidesAt(face, p); });
     std::vector<dvec3> pixels;
     for (uint32_t y = 0; y < kView.size; ++y)

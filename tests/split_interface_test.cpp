@@ -92,16 +92,6 @@ std::vector<Face> splitScene(bool withIce) {
     return faces;
 }
 
-/// The same that the lit wall of the scene shows.
-dvec3 surroundings(const dvec3& p, const dvec3& d) {
-    const double t = (-6 - p.z) / d.z;
-    if (!(d.z < 0)) return dvec3(0.25);
-    const dvec3 q = p + t * d;
-    if (std::abs(q.x) > 30 || std::abs(q.y) > 30) return dvec3(0.25);
-    const double d2 = 4 + q.x * q.x + q.y * q.y;
-    return dvec3(0.5 * 40 * 2 / std::sqrt(d2) / d2);
-}
-
 std::string objOf(const std::vector<Face>& faces) {
     std::string obj;
     for (const Face& face : faces)
@@ -150,7 +140,7 @@ Sides sidesWithIce(const Face& face, const dvec3& p) {
 std::vector<dvec3> splitPicture(bool withIce) {
     std::vector<SplitMedium> media;
     for (int i = 0; i < 4; ++i) media.push_back({kIor[i], kSigma[i]});
-    SplitScene scene(splitScene(withIce), media, surroundings,
+    SplitScene scene(splitScene(withIce), media, litWall,
                      withIce ? sidesWithIce : std::function<Sides(const Face&, const dvec3&)>());
     std::vector<dvec3> pixels;
     for (uint32_t y = 0; y < kView.size; ++y)

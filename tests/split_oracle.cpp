@@ -25,6 +25,15 @@ double sizeOf(const std::vector<SplitFace>& faces) {
 
 }  // namespace
 
+dvec3 litWall(const dvec3& p, const dvec3& d) {
+    const double t = (-6 - p.z) / d.z;
+    if (!(d.z < 0)) return dvec3(0.25);
+    const dvec3 q = p + t * d;
+    if (std::abs(q.x) > 30 || std::abs(q.y) > 30) return dvec3(0.25);
+    const double d2 = 4 + q.x * q.x + q.y * q.y;
+    return dvec3(0.5 * 40 * 2 / std::sqrt(d2) / d2);
+}
+
 SplitScene::SplitScene(const std::vector<SplitFace>& faces, std::vector<SplitMedium> media,
                        std::function<dvec3(const dvec3&, const dvec3&)> surroundings,
                        std::function<Sides(const SplitFace&, const dvec3&)> sidesAt)

@@ -23,6 +23,9 @@ struct SplitMedium {
     glm::dvec3 sigma{0};  // 1/m
 };
 
+/// Radiance towards `p` from a square wall z = -6 of 60 m, phong's diffuse 0.5, which a point light of 40 W/sr at z = -4 lights; 0.25 around it.
+glm::dvec3 litWall(const glm::dvec3& p, const glm::dvec3& d);
+
 class SplitScene {
 public:
     /// `surroundings`: radiance that a ray from a point in a direction finds where it meets no face. `sidesAt`: overrules

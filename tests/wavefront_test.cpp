@@ -296,6 +296,22 @@ TEST_CASE("both are the same where they are specialised as for a GPU") {
     }
 }
 
+TEST_CASE("without ballots in subgroups one kernel draws the scene, and who asks for the wavefront is told") {
+    GpuContext gpu;
+    if (!gpu) return;
+    test::denyBallots(gpu.get());
+    TemporaryDir dir;
+    writeFiles(dir);
+    const LoadedScene scene(gpu, bakeScene(dir, lampsScene().json, minirtc::LayoutChoice::automatic, Kernels::ofAll));
+    minirt_render_desc desc = {};
+    scene.render(desc);  // by default
+    desc.integrator = MINIRT_INTEGRATOR_WAVEFRONT;
+    minirt_job* job = nullptr;
+    CHECK(minirt_begin(scene.get(), &desc, &job) == MINIRT_ERROR_DEVICE_UNSUPPORTED);
+    CHECK(gpu.takeMessages() ==
+          std::vector<std::string>{"the wavefront needs subgroup ballots, which this device lacks; use the integrator 'path'"});
+}
+
 TEST_CASE("a blob holds no kernel of the wavefront whose queue stays empty") {
     const std::set<std::string> always = {"path", "wave_accumulate", "wave_closest", "wave_generate", "wave_hit"};
     const auto with = [&](std::set<std::string> more) {

@@ -60,8 +60,8 @@ double raysInPlanes(const Stage& stage) {
     return seenThrough(stage, across(pose, 4, 3.5, 129), wall(pose, grid), pose);
 }
 
-/// Triangles that double in size: no tree over them is shallow. White squares side by side, the camera above the smallest.
-double deepTree(const Stage& stage) {
+/// Triangles that double in size: no grid of boxes suits all. White squares over one another, the camera above the smallest.
+double doublingSizes(const Stage& stage) {
     constexpr int kLevels = 48;
     Shot shot;
     shot.view = {{0.3, 0.2, 1}, {0.3, 0.2, 0}, 90, 64};
@@ -95,7 +95,7 @@ std::vector<HardCase> intersectionCases() {
         {"tiny and huge", "triangles with legs of 2 mm before a floor of 10 km", through, 0, tinyAndHuge},
         {"needles", "triangles of 1 m by 0.1 mm", through, 0, needles},
         {"rays in planes", "rays along an axis in the planes that bound the boxes of the hierarchy", through, 0, raysInPlanes},
-        {"deep tree", "squares that double in size 48 times", "lost rays and % of wrong pixels", 0, deepTree},
+        {"doubling sizes", "squares that double in size 48 times", "lost rays and % of wrong pixels", 0, doublingSizes},
     };
 }
 

@@ -126,8 +126,7 @@ const float NEGLIGIBLE_SHARE = 5.9604644775390625e-8;
 /// Looks for the next light that adds something at the surface, and starts the shadow ray towards it. Without one, or when the budget
 /// of steps ends the search, the ray is empty.
 Traversal traceShadow(inout TreeWalk walk, inout uint steps, Encounter e) {
-    Traversal ray = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, true);
-    ray.node = NODE_NONE;
+    Traversal ray = noRay();
     walk.phase = PHASE_SHADOW;
     walk.unshadowed = vec3(0.0);
     walk.shadowVolumes = e.boundary.reflected;

@@ -43,7 +43,7 @@ Path noPath() {
     return path;
 }
 
-/// MINIRT_PATH_WORDS(SAVED_VOLUMES) words, of which a path that is done has one.
+/// MINIRT_PATH_WORDS(SAVED_VOLUMES) words. The first five, its phase to its radiance, are all that is read of a path that is done.
 void putPath(uint slot, inout uint word, Path path) {
     putWord(slot, word, path.phase | (path.lightSized ? 4u : 0u));
     putWord(slot, word, packDepth(path.bounces, path.channel));

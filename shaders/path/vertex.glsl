@@ -46,13 +46,6 @@ vec3 lightAt(Path path, Encounter e, Bsdf bsdf, LightRay light) {
     return path.throughput * value.f * light.light * (pickedWeight(light.pdf, light.sized ? value.pdf : 0.0) / light.pdf);
 }
 
-/// No ray.
-Traversal noRay() {
-    Traversal none = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, true);
-    none.node = NODE_NONE;
-    return none;
-}
-
 /// Where light at rough lobes counts from: on the curved surface that smooth normals describe, but for glass, which has a back.
 vec3 roughPoint(Encounter e, Bsdf bsdf) { return bsdf.frosted > 0.0 ? e.surface.p : e.surface.p + e.surface.lift; }
 

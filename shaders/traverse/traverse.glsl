@@ -34,6 +34,13 @@ Traversal beginTraversal(vec3 origin, vec3 direction, float tMax, bool anyHit) {
     return Traversal(origin, direction, anyHit, 0u, 0, tMax, MINIRT_NONE);
 }
 
+/// No ray: done from the start.
+Traversal noRay() {
+    Traversal none = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, true);
+    none.node = NODE_NONE;
+    return none;
+}
+
 bool isDone(Traversal traversal) { return traversal.node == NODE_NONE; }
 
 uint popNode(inout int level) {
