@@ -175,6 +175,18 @@ TEST_CASE("quartiles lie between their neighbours") {
     CHECK_FALSE(cost::covers(spread, 1.9));
 }
 
+TEST_CASE("a device that slows down in some rounds changes no ratio") {
+    const double drift[] = {1, 3, 1.5};
+    std::vector<std::vector<cost::Timing>> settings(4);
+    for (uint32_t round = 0; round < 3; ++round)
+        for (size_t i = 0; i < settings.size(); ++i)
+            settings[i].push_back({round, 10.0 * static_cast<double>(i + 1) * drift[round]});
+    cost::removeDrift(settings, 3);
+    const cost::Spread ratio = cost::ratioOf(settings[2], settings[0]);
+    CHECK(ratio.lower == doctest::Approx(3));
+    CHECK(ratio.upper == doctest::Approx(3));
+}
+
 TEST_CASE("nothing beats a point of the front, and something beats each other point") {
     CHECK(cost::paretoFront({}).empty());
     CHECK(cost::paretoFront({{1, 1}, {1, 1}}) == std::vector<size_t>{0});

@@ -169,8 +169,8 @@ std::string verdict(const Comparison& c) {
     const bool time = measurable(c.slowdown);
     const bool slower = time && c.slowdown.median > 1;
     if (c.change == ErrorChange::none) return !time ? "either" : slower ? "spare" : "keep";
-    if (c.change == ErrorChange::more) return slower || !time ? "spare" : "trade";
-    return !slower || c.usefulness > 0 ? "keep" : "trade";
+    if (c.wrongPixels > kNoticeablePixels || c.change == ErrorChange::less) return !slower || c.usefulness > 0 ? "keep" : "trade";
+    return slower || !time ? "spare" : "trade";
 }
 
 std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons) {

@@ -77,7 +77,8 @@ Estimate squaredBias(const Picture& a, const Picture& b, const Picture& firstHal
         sum += product;
         squares += product * product;
     }
-    return estimateOf(sum, squares, static_cast<double>(a.rgba.size() / 4));
+    const size_t pixels = a.rgba.size() / 4;
+    return estimateOf(sum, squares, static_cast<double>(pixels));
 }
 
 Estimate pairedDifference(const Errors& a, const Errors& b) {

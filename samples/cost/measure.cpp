@@ -16,6 +16,9 @@ constexpr uint32_t kReferenceFirstSample = 1u << 14;
 /// Fewer say nothing about how far times spread.
 constexpr uint32_t kLeastRounds = 3;
 
+/// The scene's own settings, which all others are compared with, have another turn after so many of them.
+constexpr size_t kOwnEvery = 6;
+
 uint32_t floorToPowerOfTwo(double value) {
     uint32_t power = 1;
     while (power < (1u << 20) && 2.0 * power <= value) power *= 2;
@@ -39,15 +42,14 @@ Picture scaled(Picture picture, float factor) {
 
 /// What the rounds of a configuration leave.
 struct Measurer::Tally {
-    std::vector<double> ms;
     std::vector<double> relMse;
     Errors errors;      // of all rounds, summed
     Picture even, odd;  // sums of the pictures of these rounds
 
     /// The means of the even and of the odd rounds; of a single round twice that.
     std::pair<Picture, Picture> halves() const {
-        const size_t odds = ms.size() / 2;
-        const Picture mean = scaled(even, 1.0f / static_cast<float>(ms.size() - odds));
+        const size_t odds = relMse.size() / 2;
+        const Picture mean = scaled(even, 1.0f / static_cast<float>(relMse.size() - odds));
         return {mean, odds ? scaled(odd, 1.0f / static_cast<float>(odds)) : mean};
     }
 };
@@ -112,13 +114,12 @@ const Picture& Measurer::accurateAt(uint32_t samples) {
     return picture;
 }
 
-void Measurer::add(Tally& tally, const Configuration& configuration, uint32_t round) {
+double Measurer::add(Tally& tally, const Configuration& configuration, uint32_t round) {
     double ms = 0;
     const Picture picture = render(configuration, round, 0, samplesOf(scenes_.levers(), configuration), ms);
-    tally.ms.push_back(ms);
     if (!reference_.random && round > 0) {  // the same picture again
         tally.relMse.push_back(tally.relMse.front());
-        return;
+        return ms;
     }
     const Errors errors = compare(picture, reference_.mean);
     tally.relMse.push_back(errors.relMse);
@@ -127,16 +128,13 @@ void Measurer::add(Tally& tally, const Configuration& configuration, uint32_t ro
     for (size_t p = 0; p < errors.ofPixels.size(); ++p) tally.errors.ofPixels[p] += errors.ofPixels[p];
     tally.errors.largest = std::max(tally.errors.largest, errors.largest);
     accumulate(round % 2 ? tally.odd : tally.even, picture);
+    return ms;
 }
 
 Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Configuration& configuration) {
     Measurement m;
     m.configuration = configuration;
-    m.repeats = static_cast<uint32_t>(tally.ms.size());
-    m.ms = spreadOf(tally.ms);
-    std::vector<double> slowdowns;
-    for (size_t i = 0; i < tally.ms.size(); ++i) slowdowns.push_back(tally.ms[i] / own.ms[i]);
-    m.slowdown = spreadOf(slowdowns);
+    m.repeats = static_cast<uint32_t>(tally.relMse.size());
     m.relMse = spreadOf(tally.relMse);
     const uint32_t pictures = reference_.random ? m.repeats : 1;
     m.error = tally.errors;
@@ -170,14 +168,25 @@ std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& con
     if (running.empty() || running.front() != configurations.front())
         throw std::runtime_error("the scene's own settings cannot be rendered: " + failures_.front().reason);
     std::vector<Tally> tallies(running.size());
-    for (uint32_t round = 0; round < repeats && (round < kLeastRounds || progress_.seconds() < deadline); ++round) {
+    std::vector<std::vector<Timing>> timings(running.size());
+    uint32_t round = 0;
+    for (; round < repeats && (round < kLeastRounds || progress_.seconds() < deadline); ++round) {
         for (size_t i = 0; i < running.size(); ++i) {
             progress_.show("round " + std::to_string(round + 1) + ", picture", i + 1, running.size());
-            add(tallies[i], running[i], round);
+            timings[i].push_back({round, add(tallies[i], running[i], round)});
+            if (i % kOwnEvery != kOwnEvery - 1) continue;
+            timings[0].emplace_back();
+            timings[0].back().round = round;
+            render(running[0], round, 0, samplesOf(scenes_.levers(), running[0]), timings[0].back().ms);
         }
     }
+    removeDrift(timings, round);
     std::vector<Measurement> measurements;
-    for (size_t i = 0; i < running.size(); ++i) measurements.push_back(evaluate(tallies[i], tallies[0], running[i]));
+    for (size_t i = 0; i < running.size(); ++i) {
+        measurements.push_back(evaluate(tallies[i], tallies[0], running[i]));
+        measurements.back().ms = spreadOf(millisecondsOf(timings[i]));
+        measurements.back().slowdown = i == 0 ? Spread{1, 1, 1} : ratioOf(timings[i], timings[0]);
+    }
     progress_.clear();
     return measurements;
 }

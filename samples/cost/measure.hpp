@@ -7,6 +7,7 @@
 
 #include "error_metrics.hpp"
 #include "progress.hpp"
+#include "rounds.hpp"
 #include "scenes.hpp"
 #include "spread.hpp"
 
@@ -25,8 +26,8 @@ struct Reference {
 struct Measurement {
     Configuration configuration;
     uint32_t repeats = 0;
-    Spread ms;        // of a picture: its dispatches
-    Spread slowdown;  // over the scene's own settings, round by round
+    Spread ms;        // of a picture: its dispatches, without the drift of whole rounds
+    Spread slowdown;  // over the scene's own settings: of all pairs of repeats
     Errors error;     // against the reference; relMSE is the mean of the repeats
     Spread relMse;    // of the repeats
     Estimate bias;    // part of relMSE that more samples do not remove
@@ -68,7 +69,7 @@ private:
     struct Tally;
 
     Picture render(const Configuration& configuration, uint32_t seed, uint32_t firstSample, uint32_t samples, double& ms);
-    void add(Tally& tally, const Configuration& configuration, uint32_t round);
+    double add(Tally& tally, const Configuration& configuration, uint32_t round);
     Measurement evaluate(const Tally& tally, const Tally& own, const Configuration& configuration);
     const Picture& accurateAt(uint32_t samples);
 

@@ -282,8 +282,9 @@ std::string methodSection(const Report& report) {
     text += element("p", "",
                     "<b>Time</b> is the device's time for the dispatches of one picture: the median of " +
                         std::to_string(own.repeats) +
-                        " repeats, in rounds in which all settings take turns. Costs are ratios within a round; one whose middle "
-                        "half includes 1 is called not measurable. Pipelines are created before and have a column of their own; "
+                        " repeats, in rounds in which all settings take turns. From these the drift of whole rounds is taken "
+                        "out. Costs are ratios of all pairs of repeats; one whose middle half includes 1 is called not "
+                        "measurable. Pipelines are created before and have a column of their own; "
                         "a driver that caches them makes it smaller.");
     if (report.samples() < report.sceneSamples)
         text += element("p", "",

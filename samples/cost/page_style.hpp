@@ -18,7 +18,7 @@ h2 { font-size: 1.15rem; margin: 2.2rem 0 .6rem; }
 p { margin: .5rem 0; }
 .soft, figcaption, footer { color: var(--soft); font-size: .88rem; }
 img { display: block; width: 100%; height: auto; border-radius: 4px; background: #000; }
-.hero { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 17rem), 1fr)); gap: .8rem; margin: 1rem 0; }
+.hero { display: grid; grid-template-columns: 1fr 1fr; gap: .8rem; margin: 1rem 0; }
 figure { margin: 0; }
 figcaption { margin-top: .25rem; }
 .findings { margin: 1rem 0; padding: 0; list-style: none; display: grid; gap: .6rem; }

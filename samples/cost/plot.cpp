@@ -148,7 +148,8 @@ private:
         const double y = yOf(p);
         for (double distance = 8; distance < 120; distance += 6) {
             for (int step = 0; step < 16; ++step) {
-                const double angle = (step % 2 ? -1 : 1) * (step + 1) / 2 * 0.3927;
+                const int turns = (step + 1) / 2 * (step % 2 ? -1 : 1);
+                const double angle = turns * 0.3927 - 0.6;  // first above to the right, clear of the bar
                 const double cx = x + distance * std::cos(angle);
                 const double cy = y + distance * std::sin(angle);
                 const Box box = {std::cos(angle) >= -0.1 ? cx : cx - length, cy - kText / 2, length, kText};
