@@ -238,7 +238,8 @@ Picture renderWithoutBudget(const TemporaryDir& dir, const std::string& json) {
 
 }  // namespace
 
-TEST_CASE("without the budget this driver cuts the same pictures short") {
+// The needles; mirrors come out right, where the loop over rays ends between two of them and what is left counts as pending.
+TEST_CASE("without the budget this driver cuts a traversal short") {
     {
         GpuContext gpu;
         if (!gpu) return;
@@ -246,10 +247,8 @@ TEST_CASE("without the budget this driver cuts the same pictures short") {
     TemporaryDir dir;
     dir.write("needles.obj", needles(kNeedles));
     const bool needlesRight = worksApart([&] { return isNeedlePicture(renderWithoutBudget(dir, needleScene())); });
-    const bool mirrorsRight = worksApart([&] { return mirrorError(renderWithoutBudget(dir, mirrorScene())) < 3e-5; });
-    if (needlesRight && mirrorsRight) return test::skip("this driver lets loops run on");
+    if (needlesRight) return test::skip("this driver lets loops run on");
     CHECK(!needlesRight);
-    CHECK(!mirrorsRight);
 }
 
 TEST_CASE("any budget of steps gives the same picture bit for bit") {

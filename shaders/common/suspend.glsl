@@ -22,20 +22,15 @@ vec3 takeVec3(uint slot, inout uint word) {
     return vec3(x, y, z);
 }
 
-/// What traversal changes of a ray, with the stack: the rest stays as it was put.
-void putWalk(uint slot, inout uint word, Traversal ray) {
+/// The traversal with its stack: STACK_LEVELS + MINIRT_TRAVERSAL_WORDS words.
+void putTraversal(uint slot, inout uint word, Traversal ray) {
+    putVec3(slot, word, ray.origin);
+    putVec3(slot, word, ray.direction);
     putWord(slot, word, ray.node);
     putWord(slot, word, uint(ray.level));
     putFloat(slot, word, ray.t);
     putWord(slot, word, ray.slot);
     for (int i = 0; i < ray.level; i++) putWord(slot, word, stackRead(i));
-}
-
-/// The traversal with its stack: STACK_LEVELS + MINIRT_TRAVERSAL_WORDS words.
-void putTraversal(uint slot, inout uint word, Traversal ray) {
-    putVec3(slot, word, ray.origin);
-    putVec3(slot, word, ray.direction);
-    putWalk(slot, word, ray);
 }
 
 Traversal takeTraversal(uint slot, inout uint word, bool anyHit) {

@@ -29,12 +29,12 @@ void main() {
     }
     uvec2 rays = uvec2(0u);
     uint steps = 0u;
-    while (path.phase != PHASE_DONE) {
+    do {
         traverse(ray, steps, STEP_BUDGET);
         if (!isDone(ray) || steps >= STEP_BUDGET) break;
         ray = follow(path, ray, task.pixel, rays);
         steps++;
-    }
+    } while (path.phase != PHASE_DONE);
     bool finished = path.phase == PHASE_DONE;
     addToFilm(task.filmIndex, finished ? clamped(path.radiance) : vec3(0.0), finished, rays);
     uint word = 0u;

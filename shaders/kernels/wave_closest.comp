@@ -11,7 +11,7 @@ void main() {
         endPath(slot);
         return;
     }
-    saveWalk(slot, ray);
+    saveRay(slot, ray);
     if (!isDone(ray))
         pushPath(raysOf(frame.sampling.w + 1u), slot);
     else if (missed)

@@ -8,7 +8,7 @@ void main() {
     traverse(ray, steps, STEP_BUDGET);
     uint onwards = shadowsOf(frame.sampling.w + 1u);
     if (!isDone(ray)) {
-        saveWalk(slot, ray);
+        saveRay(slot, ray);
         pushPath(onwards, slot);
         return;
     }

@@ -216,7 +216,7 @@ void main() {
     }
     uvec2 rays = uvec2(0u);
     uint steps = 0u;
-    while (walk.phase != PHASE_DONE) {
+    do {
         traverse(ray, steps, STEP_BUDGET);
         if (!isDone(ray) || steps >= STEP_BUDGET) break;
         bool arrived = walk.phase == PHASE_CLOSEST;
@@ -258,7 +258,7 @@ void main() {
             }
         }
         steps += 2u;  // this pass, and the last one of the search for lights
-    }
+    } while (walk.phase != PHASE_DONE);
     bool finished = walk.phase == PHASE_DONE;
     addToFilm(task.filmIndex, finished ? walk.radiance : vec3(0.0), finished, rays);
     saveWalk(task.slot, walk, ray);

@@ -50,12 +50,6 @@ void saveRay(uint slot, Traversal ray) {
     putTraversal(slot, word, ray);
 }
 
-/// Of a ray that was loaded from there.
-void saveWalk(uint slot, Traversal ray) {
-    uint word = RAY_WORD + 6u;  // behind origin and direction
-    putWalk(slot, word, ray);
-}
-
 Traversal loadRay(uint slot, bool anyHit) {
     uint word = RAY_WORD;
     return takeTraversal(slot, word, anyHit);

@@ -48,38 +48,43 @@ uint popNode(inout int level) {
     return level >= 0 ? stackRead(max(level, 0)) : NODE_NONE;
 }
 
-/// Visits nodes until the ray is done or `steps` reaches `budget`. Counts a step for every pass of every loop, the last one that only
-/// finds the condition false included: some drivers do.
+/// Visits nodes until the ray is done or `steps` reaches `budget`. Counts a step for every pass of every loop, as some drivers do. Loops test
+/// at their end: where a driver masks lanes, a pass that only finds the condition false costs as much as any other.
 void traverse(inout Traversal ray, inout uint steps, uint budget) {
     SlabRay slabs = slabRay(ray.origin, ray.direction, scene.gridOrigin.xyz, scene.gridScale.xyz, scene.gridPlanes.xyz);
     Shear shear = shearOf(ray.direction);
     uint node = ray.node;
     int level = ray.level;
-    while (node != NODE_NONE && steps < budget) {
-        while ((node & MINIRT_LEAF) == 0u && steps < budget) {
-            steps++;
-            ChildBoxes boxes = fetchNode(node);
-            BoxHit hit0 = intersectBox(slabs, boxes.lo0, boxes.hi0, ray.t);
-            BoxHit hit1 = intersectBox(slabs, boxes.lo1, boxes.hi1, ray.t);
-            bool secondFirst = hit1.hit && (hit1.tNear < hit0.tNear || !hit0.hit);
-            node = secondFirst ? boxes.ref1 : boxes.ref0;
-            if (hit0.hit && hit1.hit) stackWrite(level, secondFirst ? boxes.ref0 : boxes.ref1);
-            level += int(hit0.hit && hit1.hit);
-            if (!(hit0.hit || hit1.hit)) node = popNode(level);
-        }
-        if (node != NODE_NONE && (node & MINIRT_LEAF) != 0u) {
-            uint first = (node & ~MINIRT_LEAF) >> 3;
-            uint end = first + (node & 7u) + 1u;
-            for (uint slot = first; slot < end; slot++) {
-                steps++;
-                PrimitiveHit found = intersectPrimitive(slot, ray.origin, ray.direction, shear, ray.t);
-                ray.t = found.hit ? found.t : ray.t;
-                ray.slot = found.hit ? slot : ray.slot;
+    if (node != NODE_NONE) {  // a ray that is done takes one step, so that whoever waits for it gets on under any budget
+        do {
+            if ((node & MINIRT_LEAF) == 0u) {
+                do {
+                    steps++;
+                    ChildBoxes boxes = fetchNode(node);
+                    BoxHit hit0 = intersectBox(slabs, boxes.lo0, boxes.hi0, ray.t);
+                    BoxHit hit1 = intersectBox(slabs, boxes.lo1, boxes.hi1, ray.t);
+                    bool secondFirst = hit1.hit && (hit1.tNear < hit0.tNear || !hit0.hit);
+                    node = secondFirst ? boxes.ref1 : boxes.ref0;
+                    if (hit0.hit && hit1.hit) stackWrite(level, secondFirst ? boxes.ref0 : boxes.ref1);
+                    level += int(hit0.hit && hit1.hit);
+                    if (!(hit0.hit || hit1.hit)) node = popNode(level);
+                } while ((node & MINIRT_LEAF) == 0u && steps < budget);
             }
-            node = popNode(level);
-            if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
-        }
-        steps += 3u;  // this pass, and the last ones of the two loops inside; at the end, so that any budget makes progress
+            if (node != NODE_NONE && (node & MINIRT_LEAF) != 0u) {
+                uint slot = (node & ~MINIRT_LEAF) >> 3;
+                uint end = slot + (node & 7u) + 1u;
+                do {
+                    steps++;
+                    PrimitiveHit found = intersectPrimitive(slot, ray.origin, ray.direction, shear, ray.t);
+                    ray.t = found.hit ? found.t : ray.t;
+                    ray.slot = found.hit ? slot : ray.slot;
+                    slot++;
+                } while (slot < end);
+                node = popNode(level);
+                if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
+            }
+            steps += 3u;  // this pass, and those of the loops inside where all lanes of a subgroup are masked; at the end, so that any budget makes progress
+        } while (node != NODE_NONE && steps < budget);
     }
     steps++;
     ray.node = node;
