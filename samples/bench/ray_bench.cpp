@@ -99,7 +99,8 @@ private:
     void judge(bool anyHit, const std::vector<Hit>& own, RaySetResult& result) {
         for (ContenderResult& contender : result.contenders) {
             if (contender.name == kPipeline) contender.agreement = agreement(own, pipeline_->hits(), anyHit, tolerance_);
-            if (contender.name == kRobust) contender.agreement = agreement(own, robust_->hits(), anyHit, tolerance_);
+            contender.mustAgree = contender.name == kRobust;
+            if (contender.mustAgree) contender.agreement = agreement(own, robust_->hits(), anyHit, tolerance_);
         }
     }
 
@@ -118,7 +119,7 @@ private:
 
 bool RaySetResult::agrees() const {
     return std::all_of(contenders.begin(), contenders.end(),
-                       [](const ContenderResult& c) { return !c.agreement || c.agreement->good(); });
+                       [](const ContenderResult& c) { return !c.mustAgree || c.agreement->good(); });
 }
 
 std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline,

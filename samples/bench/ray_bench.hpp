@@ -24,7 +24,8 @@ struct ContenderResult {
     Spread processorNs;                  // a ray
     Spread ratio;                        // minirt's rays per second over this one's, round by round
     Spread processorRatio;               // the same by the processor time that they took
-    std::optional<Agreement> agreement;  // with minirt; absent where none is promised
+    std::optional<Agreement> agreement;  // with minirt; absent where nobody looked
+    bool mustAgree = false;
 };
 
 /// One kind of rays. The first contender is minirt.
@@ -33,7 +34,7 @@ struct RaySetResult {
     size_t count = 0;
     size_t hits = 0;
     std::vector<ContenderResult> contenders;
-    /// Every agreement that was asked for is good.
+    /// So it is with every contender that must agree.
     bool agrees() const;
 };
 

@@ -48,6 +48,19 @@ uint popNode(inout int level) {
     return level >= 0 ? stackRead(max(level, 0)) : NODE_NONE;
 }
 
+/// All primitives of a leaf.
+void intersectLeaf(inout Traversal ray, Shear shear, uint leaf, inout uint steps) {
+    uint slot = (leaf & ~MINIRT_LEAF) >> 3;
+    uint end = slot + (leaf & 7u) + 1u;
+    do {
+        steps++;
+        PrimitiveHit found = intersectPrimitive(slot, ray.origin, ray.direction, shear, ray.t);
+        ray.t = found.hit ? found.t : ray.t;
+        ray.slot = found.hit ? slot : ray.slot;
+        slot++;
+    } while (slot < end);
+}
+
 /// Visits nodes until the ray is done or `steps` reaches `budget`. Counts a step for every pass of every loop, as some drivers do. Loops test
 /// at their end: where a driver masks lanes, a pass that only finds the condition false costs as much as any other.
 void traverse(inout Traversal ray, inout uint steps, uint budget) {
@@ -71,19 +84,15 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
                 } while ((node & MINIRT_LEAF) == 0u && steps < budget);
             }
             if (node != NODE_NONE && (node & MINIRT_LEAF) != 0u) {
-                uint slot = (node & ~MINIRT_LEAF) >> 3;
-                uint end = slot + (node & 7u) + 1u;
                 do {
+                    intersectLeaf(ray, shear, node, steps);
+                    node = popNode(level);
+                    if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
                     steps++;
-                    PrimitiveHit found = intersectPrimitive(slot, ray.origin, ray.direction, shear, ray.t);
-                    ray.t = found.hit ? found.t : ray.t;
-                    ray.slot = found.hit ? slot : ray.slot;
-                    slot++;
-                } while (slot < end);
-                node = popNode(level);
-                if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
+                } while (node != NODE_NONE && (node & MINIRT_LEAF) != 0u && steps < budget);
             }
-            steps += 3u;  // this pass, and those of the loops inside where all lanes of a subgroup are masked; at the end, so that any budget makes progress
+            // This pass, and those of the loops inside where all lanes of a subgroup are masked; at the end, so that any budget makes progress.
+            steps += 4u;
         } while (node != NODE_NONE && steps < budget);
     }
     steps++;
