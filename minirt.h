@@ -490,11 +490,11 @@ typedef struct minirt_render_desc {
     minirt_integrator integrator; /* 0: the scene's */
     uint32_t light_sampling;      /* of the path tracers: MINIRT_LIGHT_SAMPLING_; same mean, the first with the least noise */
     uint32_t seed;                /* of the path tracers: another one gives another picture with noise of its own */
-    float throughput_cutoff; /* of Whitted's tracer: rays end that carry no more in any channel; 0: the scene's, below 0: none */
-    float clamp;             /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
-    const minirt_camera* camera;       /* NULL: the scene's */
-    minirt_region region;              /* all zero: the whole image */
-    float max_dispatch_ms;             /* 0: 100 */
+    float throughput_cutoff;      /* of Whitted's tracer: rays that carry no more end; 0: the scene's, below 0: none end */
+    float clamp;                  /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
+    const minirt_camera* camera;  /* NULL: the scene's */
+    minirt_region region;         /* all zero: the whole image */
+    float max_dispatch_ms;        /* 0: 100 */
     minirt_progress_callback progress; /* may be NULL */
     void* progress_user;
     minirt_stats* stats; /* may be NULL: written by minirt_render */
