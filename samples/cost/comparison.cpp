@@ -125,7 +125,8 @@ std::string changePhrase(const Comparison& c, bool plural) {
     else
         phrase = "make" + s + " the error " + number(1 - c.removed) + " times as large";
     if (c.wrongPixels > kNoticeablePixels)
-        phrase += "; without " + std::string(plural ? "them" : "it") + " " + percent(c.wrongPixels) + " of the pixels look wrong";
+        phrase += std::string(c.change == ErrorChange::more ? " at so few samples, but" : ";") + " without " +
+                  std::string(plural ? "them" : "it") + " " + percent(c.wrongPixels) + " of the pixels look wrong";
     return phrase;
 }
 
