@@ -151,7 +151,7 @@ void readSetting(const std::string& text, LeverSettings& settings) {
 }
 
 std::string settingOf(const Lever& lever, const LeverSettings& settings, const Scene& scene) {
-    const std::string wanted = asked(settings, lever.name);
+    std::string wanted = asked(settings, lever.name);
     if (!wanted.empty()) return wanted;
     if (lever.name == "nesting") return scene.nesting == Nesting::parity ? "parity" : "ordered";
     if (lever.name == "dispersion") return scene.render.dispersionMode == DispersionMode::spectral ? "spectral" : "rgb";
@@ -197,9 +197,8 @@ Applicability applies(const Lever& lever, const EffectSet& effects) {
     if (lever.name == "nesting") return anyOf(effects, {Effect::nesting});
     if (lever.name == "absorption") return anyOf(effects, {Effect::absorption, Effect::inscatter});
     if (lever.name == "dispersion") return anyOf(effects, {Effect::dispersion});
-    const Applicability goesOn = anyOf(effects, {Effect::reflection, Effect::refraction});
-    if (lever.name == "cutoff") return goesOn;
-    if (lever.name == "depth" && !effects.paths) return goesOn;
+    const bool ofRaysThatGoOn = lever.name == "cutoff" || (lever.name == "depth" && !effects.paths);
+    if (ofRaysThatGoOn) return anyOf(effects, {Effect::reflection, Effect::refraction});
     if (lever.name == "light_sampling" && effects.paths) return anyOf(effects, {Effect::areaLights, Effect::environmentLight});
     if (lever.name == "light_sampling") return {false, "nothing traces paths"};
     return {true, "every scene has rays that meet surfaces"};

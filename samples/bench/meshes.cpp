@@ -44,7 +44,7 @@ Mesh loadMesh(const std::filesystem::path& path) {
 
 Mesh knotMesh(uint32_t triangles) {
     samples::TorusKnot shape;
-    shape.sides = std::max(5, static_cast<int>(std::sqrt(triangles / 2 * 0.1125)));  // the sample's own proportions
+    shape.sides = std::max(5, static_cast<int>(std::sqrt(triangles * 0.05625)));  // the sample's own proportions
     shape.segments = std::max(10, static_cast<int>(triangles) / (2 * shape.sides));
     const samples::Mesh knot = samples::torusKnot(shape);
     minirtc::Mesh mesh;

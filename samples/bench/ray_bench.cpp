@@ -20,12 +20,14 @@ struct RaySet {
 
 Spread mraysPerSecond(size_t rays, const std::vector<double>& ms) {
     std::vector<double> rates;
+    rates.reserve(ms.size());
     for (double one : ms) rates.push_back(static_cast<double>(rays) / one * 1e-3);
     return spreadOf(rates);
 }
 
 Spread nsPerRay(size_t rays, const std::vector<double>& ms) {
     std::vector<double> costs;
+    costs.reserve(ms.size());
     for (double one : ms) costs.push_back(one * 1e6 / static_cast<double>(rays));
     return spreadOf(costs);
 }

@@ -114,7 +114,8 @@ double dispersion(const Stage& stage) {
 std::vector<HardCase> mediaCases() {
     return {
         {"absorption", "a ball that takes half of the light in 1 m", "error", 1e-5, absorption},
-        {"dispersion", "red, green and blue through a wedge of index 1.7, as three channels", "radians that a channel is off by", 1e-6, dispersion},
+        {"dispersion", "red, green and blue through a wedge of index 1.7, as three channels", "radians that a channel is off by",
+         1e-6, dispersion},
         {"hidden surfaces", "balls within a ball that displaces them, against the ball alone", "% of pixels that differ", 0,
          hiddenSurfaces},
     };

@@ -45,7 +45,7 @@ struct Picture {
 struct Shot {
     View view;
     double background = 0;
-    std::string panorama = "";  // instead
+    std::string panorama;  // instead
     uint32_t maxDepth = 20;
     Json materials = Json::object();
     Json objects = Json::array();
