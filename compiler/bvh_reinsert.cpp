@@ -9,8 +9,8 @@ namespace {
 
 constexpr uint32_t kNoNode = 0xffffffffu;
 constexpr uint32_t kRoot = 0;
-constexpr uint32_t kStride = 2;             // of all nodes, one in so many is tried in a round
-constexpr uint32_t kMostRounds = 16;        //
+constexpr uint32_t kStride = 2;  // of all nodes, one in so many is tried in a round
+constexpr uint32_t kMostRounds = 16;
 constexpr double kLeastImprovement = 1e-3;  // of the cost over kStride rounds, or it is not worth another
 constexpr uint32_t kMostPlaces = 100;  // that a search looks at: enough for surfaces; where everything overlaps it would be all
 constexpr uint32_t kChunkSize = 256;   // nodes that a thread takes at once
