@@ -22,8 +22,10 @@ using glm::clamp;
 using glm::cross;
 using glm::dot;
 using glm::exp;
+using glm::floatBitsToInt;
 using glm::floatBitsToUint;
 using glm::floor;
+using glm::intBitsToFloat;
 using glm::length;
 using glm::log;
 using glm::max;
@@ -44,6 +46,7 @@ using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 // clang-format off
+#include "../shaders/common/extremes.glsl"
 #include "../shaders/common/neighbours.glsl"
 #include "../shaders/common/numerics.glsl"
 #include "../shaders/common/pixel.glsl"
@@ -69,6 +72,12 @@ using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
+inline real maxByBits(real a, real b) {
+    return std::max(a, b);
+}
+inline real minByBits(real a, real b) {
+    return std::min(a, b);
+}
 inline real nextUp(real x) {
     return std::nextafter(x, std::numeric_limits<real>::infinity());
 }

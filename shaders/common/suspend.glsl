@@ -27,10 +27,11 @@ void putTraversal(uint slot, inout uint word, Traversal ray) {
     putVec3(slot, word, ray.origin);
     putVec3(slot, word, ray.direction);
     putWord(slot, word, ray.node);
-    putWord(slot, word, uint(ray.level));
+    int level = storeStack(ray.stack);
+    putWord(slot, word, uint(level));
     putFloat(slot, word, ray.t);
     putWord(slot, word, ray.slot);
-    for (int i = 0; i < ray.level; i++) putWord(slot, word, stackRead(i));
+    for (int i = 0; i < level; i++) putWord(slot, word, stackRead(i));
 }
 
 Traversal takeTraversal(uint slot, inout uint word, bool anyHit) {
@@ -39,9 +40,10 @@ Traversal takeTraversal(uint slot, inout uint word, bool anyHit) {
     ray.direction = takeVec3(slot, word);
     ray.anyHit = anyHit;
     ray.node = takeWord(slot, word);
-    ray.level = int(takeWord(slot, word));
+    int level = int(takeWord(slot, word));
+    ray.stack = stackInMemory(level);
     ray.t = takeFloat(slot, word);
     ray.slot = takeWord(slot, word);
-    for (int i = 0; i < ray.level; i++) stackWrite(i, takeWord(slot, word));
+    for (int i = 0; i < level; i++) stackWrite(i, takeWord(slot, word));
     return ray;
 }

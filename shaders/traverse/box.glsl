@@ -26,7 +26,8 @@ SlabRay slabRay(vec3 origin, vec3 direction, vec3 gridOrigin, vec3 gridScale, ve
     return slabs;
 }
 
-/// Entry distance (at least 0) and whether the box with the planes `lo`, `hi` is met before tMax.
+/// Entry distance (at least 0) and whether the box with the planes `lo`, `hi` is met before tMax. All distances are finite where coordinates of scene and
+/// origin are below 1e19, beyond which the triangle test overflows; a negative exit is a miss whichever it is.
 struct BoxHit {
     bool hit;
     real tNear;
@@ -38,7 +39,7 @@ BoxHit intersectBox(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
     vec3 tEntry = entry * slabs.scale + slabs.near;
     vec3 tExit = exit * slabs.scale + slabs.far;
     BoxHit result;
-    result.tNear = max(max(tEntry.x, tEntry.y), max(tEntry.z, real(0)));
-    result.hit = result.tNear <= min(min(tExit.x, tExit.y), min(tExit.z, tMax));
+    result.tNear = maxByBits(maxByBits(tEntry.x, tEntry.y), maxByBits(tEntry.z, real(0)));
+    result.hit = result.tNear <= minByBits(minByBits(tExit.x, tExit.y), minByBits(tExit.z, tMax));
     return result;
 }

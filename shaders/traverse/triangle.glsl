@@ -9,9 +9,9 @@ struct Shear {
 
 /// `axis` last, the cyclic order kept.
 vec3 permute(vec3 v, int axis) {
-    if (axis == 0) return vec3(v.y, v.z, v.x);
-    if (axis == 1) return vec3(v.z, v.x, v.y);
-    return v;
+    bool x = axis == 0;
+    bool y = axis == 1;
+    return vec3(x ? v.y : y ? v.z : v.x, x ? v.z : y ? v.x : v.y, x ? v.x : y ? v.y : v.z);
 }
 
 Shear shearOf(vec3 direction) {
