@@ -102,7 +102,8 @@ typedef struct minirt_uvec4 {
 #define MINIRT_SPEC_INTERLEAVE_GROUPS 5
 #define MINIRT_SPEC_STACK_LEVELS 6
 #define MINIRT_SPEC_FETCH_TEXELS 7
-#define MINIRT_SPEC_COUNT 8
+#define MINIRT_SPEC_MASKS_LANES 8
+#define MINIRT_SPEC_COUNT 9
 
 /* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp, shaders/path/path.glsl); `volumes`: entries of a ray's VolumeList. */
 #define MINIRT_WALK_WORDS(volumes) (21u + 2u * (volumes))
@@ -1739,7 +1740,7 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
 /* How a kernel is specialised for the class of the device. */
 struct Specialisation {
     uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels,
-        fetchTexels;
+        fetchTexels, masksLanes;
 };
 
 inline Specialisation specialisation(const minirt_scene* scene) {
@@ -1754,6 +1755,7 @@ inline Specialisation specialisation(const minirt_scene* scene) {
     s.privateStackWords = s.stackIsShared ? 1 : stackLevels;
     s.stepBudget = c->stepBudget;
     s.interleaveGroups = cpu;
+    s.masksLanes = cpu;
     const VkDeviceSize range = c->limits.maxStorageBufferRange;
     s.fetchTexels =
         cpu || scene->buffers[MINIRT_BINDING_NODES].size > range || scene->buffers[MINIRT_BINDING_PRIMITIVES].size > range;

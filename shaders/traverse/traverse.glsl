@@ -25,12 +25,15 @@ Traversal noRay() {
 
 bool isDone(Traversal traversal) { return traversal.node == NODE_NONE; }
 
+/// What a pass of an inner loop counts: a GPU's driver ends no loop, so there those of the outer one will do, which the inner ones cannot outlast.
+const uint PASS = MASKS_LANES ? 1u : 0u;
+
 /// All primitives of a leaf.
 void intersectLeaf(inout Traversal ray, Shear shear, uint leaf, inout uint steps) {
     uint slot = (leaf & ~MINIRT_LEAF) >> 3;
     uint end = slot + (leaf & 7u) + 1u;
     do {
-        steps++;
+        steps += PASS;
         PrimitiveHit found = intersectPrimitive(slot, ray.origin, ray.direction, shear, ray.t);
         ray.t = found.hit ? found.t : ray.t;
         ray.slot = found.hit ? slot : ray.slot;
@@ -49,22 +52,22 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
         do {
             if ((node & MINIRT_LEAF) == 0u) {
                 do {
-                    steps++;
+                    steps += PASS;
                     ChildBoxes boxes = fetchNode(node);
                     BoxHit hit0 = intersectBox(slabs, boxes.lo0, boxes.hi0, ray.t);
                     BoxHit hit1 = intersectBox(slabs, boxes.lo1, boxes.hi1, ray.t);
                     bool secondFirst = hit1.hit && (hit1.tNear < hit0.tNear || !hit0.hit);
                     node = secondFirst ? boxes.ref1 : boxes.ref0;
                     changeStack(stack, node, hit0.hit && hit1.hit, secondFirst ? boxes.ref0 : boxes.ref1, !(hit0.hit || hit1.hit));
-                } while ((node & MINIRT_LEAF) == 0u && steps < budget);
+                } while ((node & MINIRT_LEAF) == 0u && (!MASKS_LANES || steps < budget));
             }
             if (node != NODE_NONE && (node & MINIRT_LEAF) != 0u) {
                 do {
                     intersectLeaf(ray, shear, node, steps);
                     changeStack(stack, node, false, NODE_NONE, true);
                     if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
-                    steps++;
-                } while (node != NODE_NONE && (node & MINIRT_LEAF) != 0u && steps < budget);
+                    steps += PASS;
+                } while (node != NODE_NONE && (node & MINIRT_LEAF) != 0u && (!MASKS_LANES || steps < budget));
             }
             // This pass, and those of the loops inside where all lanes of a subgroup are masked; at the end, so that any budget makes progress.
             steps += 4u;

@@ -73,21 +73,27 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
     PRECISE real e2 = bx * ay - by * ax;
     real determinant = e0 + e1 + e2;
     bool inside = (min(e0, min(e1, e2)) >= real(0) || max(e0, max(e1, e2)) <= real(0)) && determinant != real(0);
-    real inverse = real(1) / determinant;
-    vec3 depths = vec3(a.z, b.z, c.z) * shear.scale.z;
-    real nearest = min(depths.x, min(depths.y, depths.z));
-    real farthest = max(depths.x, max(depths.y, depths.z));
-    PlaneHit plane = intersectPlane(shear.direction, v0 - origin, v1 - v0, v2 - v0);
-    // Seen edge-on, all that is certain is that a hit lies between the nearest and the farthest vertex.
-    bool ahead = plane.steep ? plane.ahead : nearest > errorGamma(4) * farthest;
     TriangleHit hit;
-    // The mean of the vertices' depths never leaves their range, so it agrees with the boxes around the triangle; right before the origin
-    // its rounding can cost the sign, which the plane knows.
-    real mean = clamp(dot(vec3(e0, e1, e2), depths) * inverse, nearest, farthest);
-    hit.t = mean > real(0) || !plane.steep ? mean : plane.t;
-    hit.b1 = e1 * inverse;
-    hit.b2 = e2 * inverse;
-    hit.hit = inside && ahead && hit.t > real(0) && hit.t < tMax;
+    hit.hit = false;
+    hit.t = tMax;
+    hit.b1 = real(0);
+    hit.b2 = real(0);
+    if (inside) {  // few are, which lets a GPU skip the rest
+        real inverse = real(1) / determinant;
+        vec3 depths = vec3(a.z, b.z, c.z) * shear.scale.z;
+        real nearest = min(depths.x, min(depths.y, depths.z));
+        real farthest = max(depths.x, max(depths.y, depths.z));
+        PlaneHit plane = intersectPlane(shear.direction, v0 - origin, v1 - v0, v2 - v0);
+        // Seen edge-on, all that is certain is that a hit lies between the nearest and the farthest vertex.
+        bool ahead = plane.steep ? plane.ahead : nearest > errorGamma(4) * farthest;
+        // The mean of the vertices' depths never leaves their range, so it agrees with the boxes around the triangle; right before the origin
+        // its rounding can cost the sign, which the plane knows.
+        real mean = clamp(dot(vec3(e0, e1, e2), depths) * inverse, nearest, farthest);
+        hit.t = mean > real(0) || !plane.steep ? mean : plane.t;
+        hit.b1 = e1 * inverse;
+        hit.b2 = e2 * inverse;
+        hit.hit = ahead && hit.t > real(0) && hit.t < tMax;
+    }
     return hit;
 }
 
