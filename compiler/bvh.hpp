@@ -36,7 +36,7 @@ struct BvhNode {
 /// second child is an empty box with a copy of the first child's leaf reference.
 struct Bvh {
     std::vector<BvhNode> nodes;
-    std::vector<uint32_t> order;  // leaf slot -> primitive; each primitive exactly once
+    std::vector<uint32_t> order;  // leaf slot -> primitive; a primitive is in a leaf once, in several leaves where it was split
     uint32_t depth = 0;           // inner nodes on the longest path from the root: bounds the traversal stack
     uint32_t leaves = 0;
     double sahCost = 0;  // expected cost of a random ray: 1 a node, 1 a primitive, relative to the root's area
@@ -53,10 +53,15 @@ Aabb bounds(const Primitive& primitive);
 /// in two directions, as no random ray meets it.
 double sahCost(const Bvh& bvh);
 
-/// Fast: binned SAH. High: then subtrees are moved to where they cost less, which takes ten times as long or more.
+/// Fast: binned SAH. High: triangles that fill little of their boxes are split where that makes a better tree, then subtrees are moved to where
+/// they cost less, which takes ten times as long or more.
 enum class BvhQuality { fast, high };
 
-/// On `threads` threads (0: all cores). The tree does not depend on the number of threads.
-Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality = BvhQuality::high);
+/// Of primitives (48 each) and 16-bit nodes (32 each) together, for each primitive: triangles are split no more often than keeps them below.
+constexpr double kBytesEach = 70;
+
+/// On `threads` threads (0: all cores). The tree does not depend on the number of threads. A primitive that was split is found by every ray that meets
+/// the box of one of its pieces. With 0 for `bytesEach`, and in the fast build, each primitive is in one leaf.
+Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality = BvhQuality::high, double bytesEach = kBytesEach);
 
 }  // namespace minirtc

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "bvh_reinsert.hpp"
+#include "bvh_spatial.hpp"
 #include "bvh_split.hpp"
 #include "parallel.hpp"
 
@@ -48,8 +49,9 @@ struct Subtree {
 
 class Builder {
 public:
-    /// `joinsLeaves`: where that is cheaper; else leaves are of one primitive each as far as the bound of the depth allows.
-    Builder(const Geometry& geometry, ThreadPool& pool, bool joinsLeaves);
+    /// Over `pieces`, or where there are none over whole primitives. `joinsLeaves`: where that is cheaper; else leaves are of one piece each as far
+    /// as the bound of the depth allows.
+    Builder(const Geometry& geometry, std::vector<Piece> pieces, ThreadPool& pool, bool joinsLeaves);
     Bvh build();
 
 private:
@@ -61,7 +63,10 @@ private:
     void makeNode(const Subtree& subtree, const Halves& halves, Subtree (&children)[2]);
     void compact(Bvh& bvh) const;
 
+    Ref refAt(uint32_t i) const;
+
     const Geometry& geometry_;
+    const std::vector<Piece> pieces_;
     const uint32_t size_;
     ThreadPool& pool_;
     const bool joinsLeaves_;
@@ -93,9 +98,10 @@ bool fit(const Halves& halves, uint32_t levels) {
     return fits(halves.half[0].size, levels) && fits(halves.half[1].size, levels);
 }
 
-Builder::Builder(const Geometry& geometry, ThreadPool& pool, bool joinsLeaves)
+Builder::Builder(const Geometry& geometry, std::vector<Piece> pieces, ThreadPool& pool, bool joinsLeaves)
     : geometry_(geometry),
-      size_(static_cast<uint32_t>(geometry.primitives.size())),
+      pieces_(std::move(pieces)),
+      size_(static_cast<uint32_t>(pieces_.empty() ? geometry.primitives.size() : pieces_.size())),
       pool_(pool),
       joinsLeaves_(joinsLeaves),
       taskSize_(pool_.size() == 1 ? size_ : std::max(kMinTaskSize, size_ / (kTasksPerThread * pool_.size()))),
@@ -105,11 +111,15 @@ Builder::Builder(const Geometry& geometry, ThreadPool& pool, bool joinsLeaves)
       used_(size_),
       order_(size_) {}
 
+Ref Builder::refAt(uint32_t i) const {
+    return pieces_.empty() ? Ref(bounds(geometry_.primitives[i]), i) : Ref(pieces_[i].box, pieces_[i].primitive);
+}
+
 Bvh Builder::build() {
     std::vector<Box> boxes(chunks(size_), Box::empty());
     pool_.parallelFor(boxes.size(), [&](size_t chunk) {
         for (uint32_t i = static_cast<uint32_t>(chunk) * kChunkSize; i < chunkEnd(size_, chunk); ++i) {
-            refs_.begin(i) = Ref(bounds(geometry_.primitives[i]), i);
+            refs_.begin(i) = refAt(i);
             boxes[chunk].grow(refs_[i]);
         }
     });
@@ -242,6 +252,34 @@ void measure(Bvh& bvh) {
     bvh.sahCost = sahCost(bvh);
 }
 
+double bytesOf(const Bvh& bvh) {
+    return 48 * static_cast<double>(bvh.order.size()) + 32 * static_cast<double>(bvh.nodes.size());
+}
+
+/// How many more pieces than primitives, as a share of these, should keep a tree like `whole` below so many bytes a primitive.
+double roomForPieces(const Bvh& whole, double bytesEach) {
+    constexpr double kUsed = 0.8;  // a piece can take more of a node than a primitive does
+    return kUsed * (bytesEach * static_cast<double>(whole.order.size()) / bytesOf(whole) - 1);
+}
+
+Bvh buildHigh(const Geometry& geometry, std::vector<Piece> pieces, ThreadPool& pool) {
+    Bvh bvh = reinsertSubtrees(Builder(geometry, std::move(pieces), pool, false).build(), pool);
+    measure(bvh);
+    return bvh;
+}
+
+/// Pieces that make a better tree than `whole`; empty where they hardly do. Leaves are joined for the comparison: where whole primitives share
+/// leaves, pieces cost more than it seems without.
+std::vector<Piece> worthwhilePieces(const Geometry& geometry, const Bvh& whole, double bytesEach, ThreadPool& pool) {
+    constexpr double kWorthwhile = 0.99;
+    const double room = roomForPieces(whole, bytesEach);
+    std::vector<Piece> pieces;
+    if (room > 0) pieces = splitPrimitives(geometry, room, pool);
+    if (!pieces.empty() && !(sahCost(Builder(geometry, pieces, pool, true).build()) < kWorthwhile * whole.sahCost))
+        pieces.clear();
+    return pieces;
+}
+
 double halfArea(const Aabb& box) {
     const glm::dvec3 d = glm::max(glm::dvec3(box.hi) - glm::dvec3(box.lo), glm::dvec3(0));
     return d.x * d.y + d.y * d.z + d.z * d.x;
@@ -281,15 +319,16 @@ double sahCost(const Bvh& bvh) {
     return halfArea(root) > 0 ? cost / halfArea(root) : 0;
 }
 
-Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality) {
+Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality, double bytesEach) {
     const auto start = std::chrono::steady_clock::now();
     if (geometry.primitives.empty()) return {};
     ThreadPool pool(threads);
-    Bvh bvh = Builder(geometry, pool, true).build();
+    Bvh bvh = Builder(geometry, {}, pool, true).build();
     measure(bvh);
     if (quality == BvhQuality::high && geometry.primitives.size() > kMaxLeafSize) {
-        Bvh better = reinsertSubtrees(Builder(geometry, pool, false).build(), pool);
-        measure(better);
+        Bvh better = buildHigh(geometry, worthwhilePieces(geometry, bvh, bytesEach, pool), pool);
+        if (better.order.size() > bvh.order.size() && bytesOf(better) > bytesEach * static_cast<double>(bvh.order.size()))
+            better = buildHigh(geometry, {}, pool);
         if (better.sahCost < bvh.sahCost) bvh = std::move(better);  // but where the bound of the depth leaves no room
     }
     bvh.buildMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

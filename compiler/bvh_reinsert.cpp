@@ -56,7 +56,7 @@ private:
     bool mayAttach(uint32_t node, uint32_t target) const;
     void measureLeaves();
     BvhChild emit(uint32_t node);
-    void emitPrimitives(uint32_t node);
+    void emitPrimitives(uint32_t node, uint32_t leafStart);
 
     const Bvh& bvh_;
     ThreadPool& pool_;
@@ -241,13 +241,15 @@ void Reinserter::measureLeaves() {
     });
 }
 
-void Reinserter::emitPrimitives(uint32_t node) {
+/// Into the leaf from `leafStart` on; the pieces of a primitive become one.
+void Reinserter::emitPrimitives(uint32_t node, uint32_t leafStart) {
     const Node& n = nodes_[node];
     if (n.isLeaf()) {
         const auto first = bvh_.order.begin() + n.child[0];
-        out_.order.insert(out_.order.end(), first, first + n.child[1]);
+        for (auto at = first; at != first + n.child[1]; ++at)
+            if (std::find(out_.order.begin() + leafStart, out_.order.end(), *at) == out_.order.end()) out_.order.push_back(*at);
     } else {
-        for (uint32_t child : n.child) emitPrimitives(child);
+        for (uint32_t child : n.child) emitPrimitives(child, leafStart);
     }
 }
 
@@ -256,8 +258,8 @@ BvhChild Reinserter::emit(uint32_t node) {
     BvhChild reference = {{{b.lo[0], b.lo[1], b.lo[2]}, {b.hi[0], b.hi[1], b.hi[2]}}, 0, 0};
     if (isJoined_[node]) {
         reference.index = static_cast<uint32_t>(out_.order.size());
-        reference.count = size_[node];
-        emitPrimitives(node);
+        emitPrimitives(node, reference.index);
+        reference.count = static_cast<uint32_t>(out_.order.size()) - reference.index;
         ++out_.leaves;
         return reference;
     }

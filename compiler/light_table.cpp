@@ -54,7 +54,10 @@ Weights weigh(const Scene& scene, const Geometry& geometry, const Bvh& bvh, cons
               double environment) {
     Weights all;
     const double radius = 0.5 * glm::length(glm::dvec3(geometry.boundsMax) - glm::dvec3(geometry.boundsMin));
+    std::vector<bool> isIn(geometry.primitives.size());  // one that was split lies in several slots
     for (uint32_t slot = 0; slot < bvh.order.size(); ++slot) {
+        if (isIn[bvh.order[slot]]) continue;
+        isIn[bvh.order[slot]] = true;
         const Primitive& primitive = geometry.primitives[bvh.order[slot]];
         all.add(MINIRT_EMITTER_PRIMITIVE | slot, exitances[primitive.material] * areaOf(primitive));
     }

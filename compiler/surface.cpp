@@ -168,7 +168,7 @@ Triangle triangleOf(const Primitive& primitive) {
 
 Surface::Surface(std::vector<Primitive> primitives, unsigned threads) {
     shapes_.primitives = std::move(primitives);
-    bvh_ = buildBvh(shapes_, worthThreads(shapes_.primitives.size(), threads));
+    bvh_ = buildBvh(shapes_, worthThreads(shapes_.primitives.size(), threads), BvhQuality::high, 0);  // counts crossings
     std::vector<Primitive> ordered;
     ordered.reserve(bvh_.order.size());
     for (const uint32_t i : bvh_.order) ordered.push_back(shapes_.primitives[i]);

@@ -65,14 +65,40 @@ Geometry hill(int n, float height) {
     return geometry;
 }
 
+/// Fine bumps that long triangles cross, as beams and wires cross a room.
+Geometry wiredHill(float offset) {
+    Geometry geometry = hill(60, 0.1f);
+    std::mt19937 random(11);
+    const auto uniform = [&] { return static_cast<float>(random()) * 0x1p-32f; };
+    for (int i = 0; i < 400; ++i) {
+        const float x = uniform(), y = uniform(), z = uniform() * 0.3f, dx = uniform(), dy = uniform();
+        geometry.primitives.push_back(triangle({x, y, z}, {x + dx, y + dy, z + 0.2f}, {x + 0.002f, y, z + 0.003f}));
+    }
+    for (Primitive& primitive : geometry.primitives)
+        for (glm::vec3& p : primitive.p) p += offset;
+    return geometry;
+}
+
 bool equal(const Aabb& a, const Aabb& b) {
     return a.lo == b.lo && a.hi == b.hi;
+}
+
+bool contains(const Aabb& outer, const Aabb& inner) {
+    return glm::all(glm::lessThanEqual(outer.lo, inner.lo)) && glm::all(glm::greaterThanEqual(outer.hi, inner.hi));
+}
+
+/// How many leaves hold each primitive.
+std::vector<uint32_t> leavesOf(const Bvh& bvh, size_t primitives) {
+    std::vector<uint32_t> leaves(primitives);
+    for (const uint32_t primitive : bvh.order) ++leaves.at(primitive);
+    return leaves;
 }
 
 /// What a walk over the whole tree finds; throws where the tree breaks a promise of bvh.hpp.
 struct Walk {
     const Geometry& geometry;
     const Bvh& bvh;
+    std::vector<uint32_t> leavesOfPrimitive = leavesOf(bvh, geometry.primitives.size());
     uint32_t nextNode = 0;
     uint32_t nextPrimitive = 0;
     uint32_t leaves = 0;
@@ -85,13 +111,28 @@ struct Walk {
             REQUIRE(child.count <= kMaxLeafSize);
             REQUIRE(child.index == nextPrimitive);
             nextPrimitive += child.count;
-            for (uint32_t i = 0; i < child.count; ++i) box.grow(bounds(geometry.primitives.at(bvh.order.at(child.index + i))));
+            box = visitLeaf(child);
         } else {
             REQUIRE(child.index == nextNode);
             box = visitNode(level);
         }
         REQUIRE(equal(box, child.box));
         return box;
+    }
+
+    /// The box that it must have: that around its primitives. Where one lies in further leaves it may be smaller, but not for the others.
+    Aabb visitLeaf(const BvhChild& child) const {
+        const auto first = bvh.order.begin() + child.index, end = first + child.count;
+        Aabb all, whole;
+        for (auto at = first; at != end; ++at) {
+            REQUIRE(std::count(first, end, *at) == 1);
+            all.grow(bounds(geometry.primitives[*at]));
+            if (leavesOfPrimitive[*at] == 1) whole.grow(bounds(geometry.primitives[*at]));
+        }
+        if (std::all_of(first, end, [&](uint32_t p) { return leavesOfPrimitive[p] == 1; })) return all;
+        REQUIRE(contains(all, child.box));
+        REQUIRE((whole.lo.x > whole.hi.x || contains(child.box, whole)));
+        return child.box;
     }
 
     Aabb visitNode(uint32_t level) {
@@ -103,16 +144,18 @@ struct Walk {
     }
 };
 
-void checkOrder(const Bvh& bvh, size_t primitives) {
-    std::vector<uint32_t> sorted = bvh.order;
-    std::sort(sorted.begin(), sorted.end());
-    REQUIRE(sorted.size() == primitives);
-    for (uint32_t i = 0; i < sorted.size(); ++i) REQUIRE(sorted[i] == i);
+/// Every primitive lies in a leaf, and in one only unless it may be split; splitting keeps within its bytes.
+void checkOrder(const Bvh& bvh, size_t primitives, BvhQuality quality = BvhQuality::high) {
+    const std::vector<uint32_t> leaves = leavesOf(bvh, primitives);
+    REQUIRE(std::count(leaves.begin(), leaves.end(), 0u) == 0);
+    if (bvh.order.size() == primitives) return;
+    REQUIRE(quality == BvhQuality::high);
+    REQUIRE(static_cast<double>(48 * bvh.order.size() + 32 * bvh.nodes.size()) <= kBytesEach * static_cast<double>(primitives));
 }
 
 Bvh buildChecked(const Geometry& geometry, BvhQuality quality) {
     const Bvh bvh = buildBvh(geometry, 2, quality);
-    checkOrder(bvh, geometry.primitives.size());
+    checkOrder(bvh, geometry.primitives.size(), quality);
     Walk walk{geometry, bvh};
     walk.visitNode(1);
     REQUIRE(walk.nextNode == bvh.nodes.size());
@@ -205,7 +248,8 @@ TEST_CASE("trees of ordinary input keep every promise") {
 }
 
 TEST_CASE("the tree does not depend on the number of threads") {
-    for (const Geometry& geometry : {soup(60000, 3), hill(150, 0.2f), repeat(sphere({0, 0, 0}, 1), 20000), soup(5, 1)}) {
+    for (const Geometry& geometry :
+         {soup(60000, 3), hill(150, 0.2f), wiredHill(0), repeat(sphere({0, 0, 0}, 1), 20000), soup(5, 1)}) {
         for (const BvhQuality quality : {BvhQuality::fast, BvhQuality::high}) {
             const Bvh expected = buildBvh(geometry, 1, quality);
             for (const unsigned threads : {2u, 3u, 7u, 0u}) {
@@ -286,6 +330,62 @@ TEST_CASE("spheres far from one another get a leaf each") {
     for (int i = 0; i < 4096; ++i) geometry.primitives.push_back(sphere({i % 16 * 10, i / 16 % 16 * 10, i / 256 * 10}, 1));
     const Bvh bvh = buildChecked(geometry);
     CHECK(bvh.leaves == 4096);
+}
+
+namespace {
+
+bool isInside(const Aabb& box, const glm::dvec3& p, double rounding) {
+    return glm::all(glm::greaterThanEqual(p, glm::dvec3(box.lo) - rounding)) &&
+           glm::all(glm::lessThanEqual(p, glm::dvec3(box.hi) + rounding));
+}
+
+/// Boxes of the leaves that hold each primitive.
+std::vector<std::vector<Aabb>> leafBoxes(const Bvh& bvh, size_t primitives) {
+    std::vector<std::vector<Aabb>> boxes(primitives);
+    for (const BvhNode& node : bvh.nodes)
+        for (const BvhChild& child : node.child)
+            for (uint32_t i = 0; i < child.count; ++i) boxes[bvh.order[child.index + i]].push_back(child.box);
+    return boxes;
+}
+
+}  // namespace
+
+TEST_CASE("every point of a split triangle is in a leaf that holds it") {
+    for (const float offset : {0.0f, 1000.0f}) {
+        const Geometry geometry = wiredHill(offset);
+        const Bvh bvh = buildChecked(geometry, BvhQuality::high);
+        const std::vector<std::vector<Aabb>> boxes = leafBoxes(bvh, geometry.primitives.size());
+        const double rounding = 1e-15 * (1 + static_cast<double>(offset));
+        std::mt19937 random(3);
+        size_t split = 0;
+        for (size_t i = 0; i < boxes.size(); ++i) {
+            split += boxes[i].size() > 1;
+            for (int k = 0; k < (boxes[i].size() > 1 ? 1000 : 1); ++k) {
+                double u = random() * 0x1p-32, v = k % 3 ? random() * 0x1p-32 : 0;  // a third of them on an edge
+                if (u + v > 1) u = 1 - u, v = 1 - v;
+                const std::array<glm::vec3, 3>& p = geometry.primitives[i].p;
+                const glm::dvec3 point = (1 - u - v) * glm::dvec3(p[0]) + u * glm::dvec3(p[1]) + v * glm::dvec3(p[2]);
+                REQUIRE(std::any_of(boxes[i].begin(), boxes[i].end(),
+                                    [&](const Aabb& box) { return isInside(box, point, rounding); }));
+            }
+        }
+        CHECK(split > 100);
+        CHECK(bvh.order.size() > geometry.primitives.size() + 100);
+    }
+}
+
+TEST_CASE("splitting lowers the cost where triangles fill little of their boxes, and can be forbidden") {
+    const Geometry geometry = wiredHill(0);
+    const Bvh split = buildChecked(geometry, BvhQuality::high);
+    const Bvh whole = buildBvh(geometry, 2, BvhQuality::high, 0);
+    MESSAGE("cost " << whole.sahCost << " -> " << split.sahCost);
+    CHECK(split.sahCost < 0.95 * whole.sahCost);
+    CHECK(leavesOf(whole, geometry.primitives.size()) == std::vector<uint32_t>(geometry.primitives.size(), 1));
+}
+
+TEST_CASE("a fine mesh is left whole") {
+    const Geometry geometry = hill(100, 0.3f);
+    CHECK(buildBvh(geometry, 2).order.size() == geometry.primitives.size());
 }
 
 TEST_CASE("moving subtrees makes up for bad splits") {

@@ -236,6 +236,21 @@ TEST_CASE("lights are picked by their power and a surface evenly over its area")
     CHECK(table.environment == doctest::Approx(powers.back() / total));
 }
 
+TEST_CASE("a triangle in several leaves shines once") {
+    Lit lit;
+    lit.geometry.primitives.push_back(triangle({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1));
+    lit.geometry.primitives.push_back(triangle({0, 0, 0}, {0, 0.5f, 0}, {0, 0, 0.5f}, 1));
+    Bvh bvh;
+    bvh.order = {1, 0, 2, 1, 1};  // all that a table reads of it
+    const LightTable table = lightTable(lit.scene, lit.geometry, bvh, environmentCells(lit.scene));
+    const std::vector<double> p = picked(aliases(table.emitters));
+    REQUIRE(p.size() == 2);
+    CHECK((table.emitters[0].entry.x & MINIRT_EMITTER_INDEX) == 0);
+    CHECK((table.emitters[1].entry.x & MINIRT_EMITTER_INDEX) == 2);
+    CHECK(p[0] == doctest::Approx(0.8));
+    CHECK(table.densities[1] == doctest::Approx(1 / 0.625));  // of area, over both
+}
+
 TEST_CASE("where nothing shines the environment is what is picked") {
     const LightTable table = Lit().table();
     REQUIRE(table.emitters.size() == 1);

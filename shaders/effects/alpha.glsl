@@ -4,7 +4,7 @@
 
 /// Whether a ray that reaches a triangle at barycentrics `b` passes through it. Where alpha is a share, a hash of ray and triangle draws the lot: as
 /// good as a random number for random rays, and the same however paths are scheduled.
-bool passesAlpha(uint slot, vec4 row0, vec4 row2, vec2 b, vec3 origin, vec3 direction) {
+bool passesAlpha(vec4 row0, vec4 row2, vec2 b, vec3 origin, vec3 direction) {
     minirt_material material = fetchMaterial(floatBitsToUint(row0.w) & ~MINIRT_PRIMITIVE_SPHERE);
     uint corners = floatBitsToUint(row2.w);
     uint flags = material.options.x & (MINIRT_MATERIAL_ALPHA_MASK | MINIRT_MATERIAL_ALPHA_BLEND);
@@ -12,12 +12,14 @@ bool passesAlpha(uint slot, vec4 row0, vec4 row2, vec2 b, vec3 origin, vec3 dire
     float alpha = material.transmit.w;
     if (material.options.y != MINIRT_NONE && corners != MINIRT_NONE) alpha *= sampleRgba(material.options.y, surfaceUv(corners, b)).a;
     uvec3 ray = floatBitsToUint(direction) + floatBitsToUint(origin) * 0x9e3779b9u;
-    float lot = unitReal(hashBits(uvec4(ray, slot)).x);
+    // By its corners, as a triangle that was split lies in several slots.
+    uvec3 triangle = floatBitsToUint(row0.xyz) + floatBitsToUint(row2.xyz) * 0x85ebca6bu;
+    float lot = unitReal(hashBits(uvec4(ray, hashBits(uvec4(triangle, corners)).x)).x);
     return alpha < (flags == MINIRT_MATERIAL_ALPHA_MASK ? material.finish.w : lot) || alpha <= 0.0;
 }
 
 #else
 
-bool passesAlpha(uint slot, vec4 row0, vec4 row2, vec2 b, vec3 origin, vec3 direction) { return false; }
+bool passesAlpha(vec4 row0, vec4 row2, vec2 b, vec3 origin, vec3 direction) { return false; }
 
 #endif

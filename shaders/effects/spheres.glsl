@@ -14,7 +14,7 @@ PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear sh
     vec4 row1 = primitiveRow(slot, 1u);
     vec4 row2 = primitiveRow(slot, 2u);
     TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, row1.xyz, row2.xyz, tMax);
-    if (triangle.hit && !isSphere(row0) && passesAlpha(slot, row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
+    if (triangle.hit && !isSphere(row0) && passesAlpha(row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
     SphereHit sphere = intersectSphere(origin, direction, row0.xyz, row1.x, tMax);
     return isSphere(row0) ? PrimitiveHit(sphere.hit, float(sphere.t)) : PrimitiveHit(triangle.hit, float(triangle.t));
 }
@@ -36,7 +36,7 @@ PrimitiveHit intersectPrimitive(uint slot, vec3 origin, vec3 direction, Shear sh
     vec4 row0 = primitiveRow(slot, 0u);
     vec4 row2 = primitiveRow(slot, 2u);
     TriangleHit triangle = intersectTriangle(origin, shear, row0.xyz, primitiveRow(slot, 1u).xyz, row2.xyz, tMax);
-    if (triangle.hit && passesAlpha(slot, row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
+    if (triangle.hit && passesAlpha(row0, row2, vec2(triangle.b1, triangle.b2), origin, direction)) triangle.hit = false;
     return PrimitiveHit(triangle.hit, float(triangle.t));
 }
 
