@@ -50,7 +50,8 @@ extern "C" {
 
 /* >>config
    MINIRT_API        linkage of the functions; default extern.
-   MINIRT_NO_DLOPEN  define where there is no dynamic loader: minirt_host_device::get_instance_proc_addr must then be given. */
+   MINIRT_NO_DLOPEN  define where there is no dynamic loader: minirt_host_device::get_instance_proc_addr must then be given.
+   MINIRT_NO_THREADS define where there are no threads: the pipelines of an integrator are then made one after the other. */
 #ifndef MINIRT_API
 #define MINIRT_API
 #endif
@@ -542,6 +543,9 @@ MINIRT_API minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands
 #include <new>
 #include <type_traits>
 
+#if !defined(MINIRT_NO_THREADS)
+#include <thread>
+#endif
 #if !defined(MINIRT_NO_DLOPEN)
 #if defined(_WIN32)
 extern "C" __declspec(dllimport) void* __stdcall LoadLibraryA(const char*);
@@ -1769,20 +1773,25 @@ inline bool needsFloat64(const uint32_t* words, size_t count) {
     return false;
 }
 
-inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel, VkPipeline* out) {
+inline minirt_result requirePrecision(const minirt_scene* s, const minirt_kernel& kernel) {
     minirt_context* c = s->context;
+    const uint32_t* words = static_cast<const uint32_t*>(static_cast<const void*>(s->spirv + kernel.spirv_offset));
+    if (c->float64 || !needsFloat64(words, static_cast<size_t>(kernel.spirv_size / 4))) return MINIRT_OK;
+    return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
+                c->ownsDevice ? "the kernels are in double precision, which the device does not offer (shaderFloat64); bake "
+                                "with precision=float"
+                              : "the kernels are in double precision; enable shaderFloat64 and say so in minirt_host_device");
+}
+
+/* Calls nothing but the driver: it runs on several threads. */
+inline VkResult makePipeline(const minirt_scene* s, const minirt_kernel& kernel, VkPipeline* out) {
+    const minirt_context* c = s->context;
     VkShaderModuleCreateInfo module = {};
     module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     module.codeSize = static_cast<size_t>(kernel.spirv_size);
     module.pCode = static_cast<const uint32_t*>(static_cast<const void*>(s->spirv + kernel.spirv_offset));
-    if (!c->float64 && needsFloat64(module.pCode, module.codeSize / 4))
-        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
-                    c->ownsDevice ? "the kernels are in double precision, which the device does not offer (shaderFloat64); bake "
-                                    "with precision=float"
-                                  : "the kernels are in double precision; enable shaderFloat64 and say so in minirt_host_device");
     VkShaderModule shader = VK_NULL_HANDLE;
-    if (minirt_result r = check(c, c->vk.CreateShaderModule(c->device, &module, nullptr, &shader), "vkCreateShaderModule"))
-        return r;
+    if (const VkResult r = c->vk.CreateShaderModule(c->device, &module, nullptr, &shader)) return r;
 
     const Specialisation values = specialisation(s);
     static_assert(sizeof values == MINIRT_SPEC_COUNT * sizeof(uint32_t), "one word a constant, in the order of their ids");
@@ -1797,8 +1806,7 @@ inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel
     pipeline.stage.pName = "main";
     pipeline.stage.pSpecializationInfo = &info;
     pipeline.layout = s->pipelineLayout;
-    const minirt_result r =
-        check(c, c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, out), "vkCreateComputePipelines");
+    const VkResult r = c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, out);
     c->vk.DestroyShaderModule(c->device, shader, nullptr);
     return r;
 }
@@ -1877,11 +1885,28 @@ inline bool hasIntegrator(const minirt_scene* s, uint32_t integrator) {
     return findKernel(s, integratorKernel(integrator, 0)) != nullptr;
 }
 
+/* At the same time, where there are threads: drivers translate each kernel by itself. */
 inline minirt_result createPipelines(minirt_scene* s, const minirt_kernel* const* kernels) {
-    minirt_result r = MINIRT_OK;
-    for (uint32_t i = 0; i < kMostKernels && !r; ++i)
-        if (kernels[i]) r = createPipeline(s, *kernels[i], &s->pipelines[i]);
-    return r;
+    VkResult results[kMostKernels] = {};
+    uint32_t present[kMostKernels];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < kMostKernels; ++i) {
+        if (!kernels[i]) continue;
+        if (minirt_result r = requirePrecision(s, *kernels[i])) return r;
+        present[count++] = i;
+    }
+    const auto make = [&](uint32_t i) { results[i] = makePipeline(s, *kernels[i], &s->pipelines[i]); };
+#if defined(MINIRT_NO_THREADS)
+    for (uint32_t i = 0; i < count; ++i) make(present[i]);
+#else
+    std::thread threads[kMostKernels];
+    for (uint32_t i = 1; i < count; ++i) threads[i] = std::thread(make, present[i]);
+    if (count) make(present[0]);
+    for (uint32_t i = 1; i < count; ++i) threads[i].join();
+#endif
+    for (VkResult result : results)
+        if (minirt_result r = check(s->context, result, "making a pipeline")) return r;
+    return MINIRT_OK;
 }
 
 /* Pipelines of kernels that share one descriptor set; NULL where there is none. */

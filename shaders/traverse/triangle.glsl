@@ -9,9 +9,7 @@ struct Shear {
 
 /// `axis` last, the cyclic order kept.
 vec3 permute(vec3 v, int axis) {
-    if (axis == 0) return vec3(v.y, v.z, v.x);
-    if (axis == 1) return vec3(v.z, v.x, v.y);
-    return v;
+    return axis == 0 ? vec3(v.y, v.z, v.x) : axis == 1 ? vec3(v.z, v.x, v.y) : v;
 }
 
 Shear shearOf(vec3 direction) {
