@@ -10,6 +10,7 @@
 #include "embree_tree.hpp"
 #include "meshes.hpp"
 #include "ray_sets.hpp"
+#include "scaling.hpp"
 #include "support.hpp"
 #include "timing.hpp"
 
@@ -162,6 +163,30 @@ TEST_CASE("hits agree where both miss or both are near, any hits where both hit"
     CHECK(many.good());
     many.distance = 1;
     CHECK_FALSE(many.good());
+}
+
+TEST_CASE("scaling is what each keeps of its rays per second from the smallest mesh on") {
+    const auto rate = [](double median) { return Spread{median, median, median}; };
+    const auto mesh = [&](uint64_t triangles, double own, double peer) {
+        RaySetResult set;
+        set.rays = "primary";
+        set.contenders = {{"minirt", rate(own), rate(1 / own), {}, {}, {}, false},
+                          {"other", rate(1), rate(1), {}, {}, {}, false},
+                          {"judge", rate(peer), rate(2 / peer), {}, {}, {}, true}};
+        return MeshRays{triangles, {set}};
+    };
+    const std::vector<Scaling> scaling = scalingOf({mesh(500, 10, 30), mesh(100, 40, 60), mesh(900, 5, 10)});
+    REQUIRE(scaling.size() == 2);
+    CHECK(scaling[0].peer == "judge");
+    CHECK(scaling[0].from == 100);
+    CHECK(scaling[0].to == 500);
+    CHECK(scaling[0].own == doctest::Approx(0.25));
+    CHECK(scaling[0].peers == doctest::Approx(0.5));
+    CHECK(scaling[0].ratio() == doctest::Approx(0.5));
+    CHECK(scaling[1].ratioByProcessor() == doctest::Approx(0.75));
+    MeshRays alone = mesh(100, 40, 60);
+    alone.sets[0].contenders.resize(2);
+    CHECK(scalingOf({alone, mesh(500, 10, 30)}).empty());
 }
 
 TEST_CASE("knots have about as many triangles as asked for") {

@@ -5,17 +5,36 @@
 namespace bench {
 namespace {
 
-Json toJson(const StartResult& start) {
-    return {{"context_ms", start.context},
-            {"load_ms", start.load},
-            {"upload_ms", start.upload},
-            {"pipeline_ms", start.pipeline},
-            {"first_pixel_ms", start.firstPixel}};
+Json toJson(const StartSpreads& start) {
+    return {{"process_ms", toJson(start.process)},
+            {"load_ms", toJson(start.load)},
+            {"upload_ms", toJson(start.upload)},
+            {"pipeline_ms", toJson(start.pipeline)}};
 }
 
-void print(const char* name, const StartResult& start) {
-    std::printf("  %-24s first pixel after %.1f ms: context %.1f, load %.1f, upload %.1f, pipeline and first dispatch %.1f\n",
-                name, start.firstPixel, start.context, start.load, start.upload, start.pipeline);
+Json toJson(const LoadResult& load) {
+    return {{"bytes", load.bytes},
+            {"load_ms", toJson(load.load)},
+            {"copy_ms", toJson(load.copy)},
+            {"copy_again_ms", toJson(load.copyAgain)},
+            {"copy_over_load", toJson(load.ratio)},
+            {"copy_again_over_load", toJson(load.ratioAgain)}};
+}
+
+void print(const char* name, const StartSpreads& start) {
+    std::printf(
+        "  %-22s %7.1f ms (%.1f-%.1f) from nothing to a picture of 64 x 64; load %.1f, upload %.1f, pipelines and first dispatch "
+        "%.1f\n",
+        name, start.process.median, start.process.low, start.process.high, start.load.median, start.upload.median,
+        start.pipeline.median);
+}
+
+void print(const LoadResult& load) {
+    std::printf(
+        "  load %.2f ms (%.2f GB/s): %.2f (%.2f-%.2f) of a copy to the device, %.2f (%.2f-%.2f) of one into buffers written "
+        "before\n",
+        load.load.median, static_cast<double>(load.bytes) / load.load.median * 1e-6, load.ratio.median, load.ratio.low,
+        load.ratio.high, load.ratioAgain.median, load.ratioAgain.low, load.ratioAgain.high);
 }
 
 }  // namespace
@@ -50,10 +69,27 @@ Json toJson(const std::vector<TreeResult>& results) {
     return json;
 }
 
+Json toJson(const std::vector<Scaling>& results) {
+    Json json = Json::array();
+    for (const Scaling& s : results)
+        json.push_back({{"rays", s.rays},
+                        {"from_triangles", s.from},
+                        {"to_triangles", s.to},
+                        {"peer", s.peer},
+                        {"kept", s.own},
+                        {"kept_by_peer", s.peers},
+                        {"ratio", s.ratio()},
+                        {"kept_by_processor_time", s.ownByProcessor},
+                        {"kept_by_peer_by_processor_time", s.peersByProcessor},
+                        {"ratio_by_processor_time", s.ratioByProcessor()}});
+    return json;
+}
+
 Json toJson(const SceneResult& result) {
     Json json = {{"scene", result.scene}, {"width", result.width}, {"height", result.height}, {"blob_bytes", result.blobBytes}};
     if (result.bakeMs > 0) json["bake_ms"] = result.bakeMs;
-    json["start"] = {{"cold", toJson(result.cold)}, {"cached", toJson(result.cached)}};
+    json["start"] = {{"cold", toJson(result.starts.cold)}, {"second", toJson(result.starts.second)}};
+    json["load"] = toJson(result.load);
     for (const FrameResult& frame : result.frames)
         json["frames"][frame.integrator] = {{"ms_per_sample", toJson(frame.msPerSample)},
                                             {"mrays_per_s", toJson(frame.mraysPerSecond)}};
@@ -92,13 +128,23 @@ void print(const std::vector<TreeResult>& results) {
                     tree.mtrianglesPerSecond.low, tree.mtrianglesPerSecond.high, tree.sahCost, tree.nodes, tree.references);
 }
 
+void print(const std::vector<Scaling>& results) {
+    std::printf("Rays per second that are left on the larger mesh (by processor time):\n  %-9s %19s %15s %22s %15s\n", "rays",
+                "triangles", "minirt", "peer", "minirt over it");
+    for (const Scaling& s : results)
+        std::printf("  %-9s %8llu to %8llu %6.2f (%6.2f) %14s %6.2f (%6.2f) %6.2f (%6.2f)\n", s.rays.c_str(),
+                    static_cast<unsigned long long>(s.from), static_cast<unsigned long long>(s.to), s.own, s.ownByProcessor,
+                    s.peer.c_str(), s.peers, s.peersByProcessor, s.ratio(), s.ratioByProcessor());
+}
+
 void print(const SceneResult& result) {
     std::printf("%s: %u x %u, blob of %.1f MB", result.scene.c_str(), result.width, result.height,
                 static_cast<double>(result.blobBytes) * 1e-6);
     if (result.bakeMs > 0) std::printf(", baked in %.0f ms", result.bakeMs);
     std::printf("\n");
-    print("shaders compiled anew", result.cold);
-    print("shaders from the cache", result.cached);
+    print("first start", result.starts.cold);
+    print("second start", result.starts.second);
+    print(result.load);
     for (const FrameResult& frame : result.frames)
         std::printf("  %-9s %10.2f ms a sample (%.2f-%.2f), %.2f Mrays/s\n", frame.integrator.c_str(), frame.msPerSample.median,
                     frame.msPerSample.low, frame.msPerSample.high, frame.mraysPerSecond.median);
