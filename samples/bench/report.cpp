@@ -25,7 +25,7 @@ void print(const char* name, const StartSpreads& start) {
     std::printf(
         "  %-22s %7.1f ms (%.1f-%.1f) from nothing to a picture of 64 x 64; load %.1f, upload %.1f, pipelines and first dispatch "
         "%.1f\n",
-        name, start.process.median, start.process.low, start.process.high, start.load.median, start.upload.median,
+        name, start.process.median, start.process.lower, start.process.upper, start.load.median, start.upload.median,
         start.pipeline.median);
 }
 
@@ -33,14 +33,14 @@ void print(const LoadResult& load) {
     std::printf(
         "  load %.2f ms (%.2f GB/s): %.2f (%.2f-%.2f) of a copy to the device, %.2f (%.2f-%.2f) of one into buffers written "
         "before\n",
-        load.load.median, static_cast<double>(load.bytes) / load.load.median * 1e-6, load.ratio.median, load.ratio.low,
-        load.ratio.high, load.ratioAgain.median, load.ratioAgain.low, load.ratioAgain.high);
+        load.load.median, static_cast<double>(load.bytes) / load.load.median * 1e-6, load.ratio.median, load.ratio.lower,
+        load.ratio.upper, load.ratioAgain.median, load.ratioAgain.lower, load.ratioAgain.upper);
 }
 
 }  // namespace
 
 Json toJson(const Spread& spread) {
-    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+    return {{"median", spread.median}, {"lower", spread.lower}, {"upper", spread.upper}};
 }
 
 Json toJson(const std::vector<RaySetResult>& results) {
@@ -109,23 +109,23 @@ Json toJson(const EffectsResult& result) {
 }
 
 void print(const std::vector<RaySetResult>& results) {
-    std::printf("  %-9s %-21s %26s %22s %10s %10s\n", "rays", "tracer", "Mrays/s (lowest-highest)", "minirt over it",
-                "(cpu time)", "differing");
+    std::printf("  %-9s %-21s %26s %22s %10s %10s\n", "rays", "tracer", "Mrays/s (quartiles)", "minirt over it", "(cpu time)",
+                "differing");
     for (const RaySetResult& set : results)
         for (const ContenderResult& c : set.contenders) {
             std::printf("  %-9s %-21s %10.2f (%6.2f-%7.2f) %8.2f (%5.2f-%5.2f) %10.2f", set.rays.c_str(), c.name.c_str(),
-                        c.mraysPerSecond.median, c.mraysPerSecond.low, c.mraysPerSecond.high, c.ratio.median, c.ratio.low,
-                        c.ratio.high, c.processorRatio.median);
+                        c.mraysPerSecond.median, c.mraysPerSecond.lower, c.mraysPerSecond.upper, c.ratio.median, c.ratio.lower,
+                        c.ratio.upper, c.processorRatio.median);
             if (c.agreement) std::printf(" %10zu of %zu", c.agreement->differing(), c.agreement->rays);
             std::printf("\n");
         }
 }
 
 void print(const std::vector<TreeResult>& results) {
-    std::printf("  %-31s %26s %8s %10s %11s\n", "hierarchy", "Mtris/s (lowest-highest)", "SAH", "nodes", "references");
+    std::printf("  %-31s %26s %8s %10s %11s\n", "hierarchy", "Mtris/s (quartiles)", "SAH", "nodes", "references");
     for (const TreeResult& tree : results)
         std::printf("  %-31s %10.2f (%6.2f-%7.2f) %8.2f %10zu %11zu\n", tree.name.c_str(), tree.mtrianglesPerSecond.median,
-                    tree.mtrianglesPerSecond.low, tree.mtrianglesPerSecond.high, tree.sahCost, tree.nodes, tree.references);
+                    tree.mtrianglesPerSecond.lower, tree.mtrianglesPerSecond.upper, tree.sahCost, tree.nodes, tree.references);
 }
 
 void print(const std::vector<Scaling>& results) {
@@ -147,18 +147,18 @@ void print(const SceneResult& result) {
     print(result.load);
     for (const FrameResult& frame : result.frames)
         std::printf("  %-9s %10.2f ms a sample (%.2f-%.2f), %.2f Mrays/s\n", frame.integrator.c_str(), frame.msPerSample.median,
-                    frame.msPerSample.low, frame.msPerSample.high, frame.mraysPerSecond.median);
+                    frame.msPerSample.lower, frame.msPerSample.upper, frame.mraysPerSecond.median);
 }
 
 void print(const std::vector<EffectsResult>& results) {
     std::printf(
-        "| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (lowest to highest) "
+        "| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (quartiles) "
         "|\n|---|---|---|---|---|\n");
     for (const EffectsResult& e : results)
         std::printf("| `%s` %s | %.0f of %.0f | %.0f of %.0f | %.2f of %.2f | %.2f (%.2f to %.2f) |\n", e.scene.c_str(),
                     e.integrator.c_str(), static_cast<double>(e.pruned.spirvBytes) * 1e-3,
                     static_cast<double>(e.whole.spirvBytes) * 1e-3, e.pruned.firstDispatchMs, e.whole.firstDispatchMs,
-                    e.pruned.msPerSample.median, e.whole.msPerSample.median, e.speedup.median, e.speedup.low, e.speedup.high);
+                    e.pruned.msPerSample.median, e.whole.msPerSample.median, e.speedup.median, e.speedup.lower, e.speedup.upper);
 }
 
 }  // namespace bench
