@@ -5,22 +5,6 @@
 namespace bench {
 namespace {
 
-Json toJson(const StartSpreads& start) {
-    return {{"process_ms", toJson(start.process)},
-            {"load_ms", toJson(start.load)},
-            {"upload_ms", toJson(start.upload)},
-            {"pipeline_ms", toJson(start.pipeline)}};
-}
-
-Json toJson(const LoadResult& load) {
-    return {{"bytes", load.bytes},
-            {"load_ms", toJson(load.load)},
-            {"copy_ms", toJson(load.copy)},
-            {"copy_again_ms", toJson(load.copyAgain)},
-            {"copy_over_load", toJson(load.ratio)},
-            {"copy_again_over_load", toJson(load.ratioAgain)}};
-}
-
 void print(const char* name, const StartSpreads& start) {
     std::printf(
         "  %-22s %7.1f ms (%.1f-%.1f) from nothing to a picture of 64 x 64; load %.1f, upload %.1f, pipelines and first dispatch "
@@ -41,6 +25,22 @@ void print(const LoadResult& load) {
 
 Json toJson(const Spread& spread) {
     return {{"median", spread.median}, {"lower", spread.lower}, {"upper", spread.upper}};
+}
+
+Json toJson(const StartSpreads& start) {
+    return {{"process_ms", toJson(start.process)},
+            {"load_ms", toJson(start.load)},
+            {"upload_ms", toJson(start.upload)},
+            {"pipeline_ms", toJson(start.pipeline)}};
+}
+
+Json toJson(const LoadResult& load) {
+    return {{"bytes", load.bytes},
+            {"load_ms", toJson(load.load)},
+            {"copy_ms", toJson(load.copy)},
+            {"copy_again_ms", toJson(load.copyAgain)},
+            {"copy_over_load", toJson(load.ratio)},
+            {"copy_again_over_load", toJson(load.ratioAgain)}};
 }
 
 Json toJson(const std::vector<RaySetResult>& results) {

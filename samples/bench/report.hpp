@@ -13,6 +13,8 @@ namespace bench {
 using Json = nlohmann::ordered_json;
 
 Json toJson(const Spread& spread);
+Json toJson(const StartSpreads& start);
+Json toJson(const LoadResult& load);
 Json toJson(const std::vector<RaySetResult>& results);
 Json toJson(const std::vector<TreeResult>& results);
 Json toJson(const std::vector<Scaling>& results);
