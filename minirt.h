@@ -1599,7 +1599,7 @@ inline void wantLargePages(const minirt_context* c, void* memory, VkDeviceSize s
     const uintptr_t start = reinterpret_cast<uintptr_t>(memory);
     const uintptr_t first = (start + kLargePage - 1) / kLargePage * kLargePage;
     const uintptr_t end = (start + static_cast<uintptr_t>(size)) / kLargePage * kLargePage;
-    if (c->info.is_cpu && first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+    if (c->info.is_cpu && first < end) madvise(static_cast<uint8_t*>(memory) + (first - start), end - first, MADV_HUGEPAGE);
 #else
     (void)c, (void)memory, (void)size;
 #endif
@@ -1630,8 +1630,7 @@ inline minirt_result makeBuffer(minirt_context* c, VkDeviceSize size, VkBufferUs
     const bool map =
         (flags & mappable) == mappable && (placement != Placement::device || (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT));
     if (!map) return MINIRT_OK;
-    if (minirt_result r =
-            check(c, c->vk.MapMemory(c->device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory"))
+    if (minirt_result r = check(c, c->vk.MapMemory(c->device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory"))
         return r;
     wantLargePages(c, buffer.mapped, size);
     return MINIRT_OK;

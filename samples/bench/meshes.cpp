@@ -67,7 +67,7 @@ Mesh knotMesh(uint32_t triangles) {
 
 std::filesystem::path writeKnotScene(const std::filesystem::path& folder, uint32_t triangles, const std::string& integrator) {
     samples::writeObj(knotOf(triangles), folder / "knot.obj");
-    const std::filesystem::path scene = folder / ("knot_" + integrator + ".json");
+    std::filesystem::path scene = folder / ("knot_" + integrator + ".json");
     samples::writeText(scene, R"({"camera": {"position": [0, 3, 4], "target": [0, 0, 0], "vfov": 40},
  "background": {"color": [0.3, 0.4, 0.5]},
  "lights": [{"type": "directional", "direction": [-1, -2, -1], "irradiance": [2, 2, 2]}],

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path renderProgram() {
-    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "minirt-render";
+    fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "minirt-render";
     if (!fs::exists(program)) throw std::runtime_error(program.string() + ": is missing, starts cannot be measured");
     return program;
 }
@@ -25,6 +25,7 @@ fs::path renderProgram() {
 /// Milliseconds from the creation of the process to its end.
 double processMs(std::vector<std::string> words) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t process = 0;
@@ -39,6 +40,7 @@ double processMs(std::vector<std::string> words) {
 StartSpreads spreadsOf(const std::vector<StartResult>& starts) {
     const auto spread = [&](double StartResult::*part) {
         std::vector<double> values;
+        values.reserve(starts.size());
         for (const StartResult& one : starts) values.push_back(one.*part);
         return spreadOf(values);
     };
