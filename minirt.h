@@ -1241,6 +1241,8 @@ inline void closeLoader(minirt_context* c) {
     dlclose(c->loader);
 #endif
     c->loader = nullptr;
+#else
+    (void)c;
 #endif
 }
 
