@@ -50,7 +50,9 @@ extern "C" {
 
 /* >>config
    MINIRT_API        linkage of the functions; default extern.
-   MINIRT_NO_DLOPEN  define where there is no dynamic loader: minirt_host_device::get_instance_proc_addr must then be given. */
+   MINIRT_NO_DLOPEN  define where there is no dynamic loader: minirt_host_device::get_instance_proc_addr must then be given.
+   MINIRT_NO_THREADS define where there are no threads. Else a load checks on one while it uploads, and the pipelines of an integrator
+                     are made on one each; all end before the call returns, and none calls back. */
 #ifndef MINIRT_API
 #define MINIRT_API
 #endif
@@ -463,7 +465,7 @@ typedef struct minirt_stats {
     double gpu_ms;      /* dispatches, by the device's clock where it has one */
     double pipeline_ms; /* pipeline creation and first dispatch */
     double load_ms;     /* reading and validating the blob */
-    double upload_ms;
+    double upload_ms;   /* at the same time, where there are threads */
     uint64_t primary_rays, shadow_rays, secondary_rays;
     uint64_t nan_pixels, volume_overflow, segment_overflow;
     uint64_t traversal_cap; /* pixels left unfinished: only minirt_record, and only when its passes were too few */
@@ -543,6 +545,10 @@ MINIRT_API minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands
 #include <new>
 #include <type_traits>
 
+#if !defined(MINIRT_NO_THREADS)
+#include <system_error>
+#include <thread>
+#endif
 #if !defined(MINIRT_NO_DLOPEN)
 #if defined(_WIN32)
 extern "C" __declspec(dllimport) void* __stdcall LoadLibraryA(const char*);
@@ -614,6 +620,40 @@ void hostDelete(const minirt_allocator& allocator, T* object) {
     hostRelease(allocator, object);
 }
 
+/* >>implementation-threads */
+constexpr uint32_t kMostTasks = 6;
+
+#if !defined(MINIRT_NO_THREADS)
+/* task(i) on a thread of its own, or at once where the system gives none: then what is returned cannot be joined. */
+template <typename Task>
+std::thread startThread(const Task& task, uint32_t i) {
+#if defined(__cpp_exceptions)
+    try {
+        return std::thread(task, i);
+    } catch (const std::system_error&) {
+        task(i);
+        return std::thread();
+    }
+#else
+    return std::thread(task, i);
+#endif
+}
+#endif
+
+/* Runs task(0) on this thread and task(1) .. task(count - 1) on others; returns when all are done. */
+template <typename Task>
+void atOnce(uint32_t count, const Task& task) {
+#if defined(MINIRT_NO_THREADS)
+    for (uint32_t i = 0; i < count; ++i) task(i);
+#else
+    std::thread threads[kMostTasks];
+    for (uint32_t i = 1; i < count; ++i) threads[i] = startThread(task, i);
+    if (count) task(0);
+    for (std::thread& thread : threads)
+        if (thread.joinable()) thread.join();
+#endif
+}
+
 /* >>implementation-validation */
 struct BlobReader {
     const uint8_t* data;
@@ -637,14 +677,23 @@ inline uint64_t mixLane(uint64_t lane, uint64_t word) {
     return lane ^ (lane >> 29);
 }
 
-/* Index of the first float whose exponent is all ones, or count. `stride` words an element, of which the first `used` are floats. */
-inline uint64_t firstNonFinite(const void* data, uint64_t count, uint64_t stride, uint64_t used) {
+/* Negative where one of the floats has an exponent of all ones: one more carries into the sign. */
+template <uint64_t kUsed>
+int32_t nonFinite(const uint32_t* words) {
+    uint32_t bits = 0;
+    for (uint64_t k = 0; k < kUsed; ++k) bits |= (words[k] & 0x7f800000u) + 0x00800000u;
+    return static_cast<int32_t>(bits);
+}
+
+/* Index of the first element with a float that is not finite, or count: of kStride words, the first kUsed are floats. Looks at all before it asks
+   which, as loops without a way out run on vectors. */
+template <uint64_t kStride, uint64_t kUsed>
+uint64_t firstNonFinite(const void* data, uint64_t count) {
     const uint32_t* words = static_cast<const uint32_t*>(data);
-    for (uint64_t i = 0; i < count; ++i) {
-        uint32_t bad = 0;
-        for (uint64_t k = 0; k < used; ++k) bad |= (words[i * stride + k] & 0x7f800000u) == 0x7f800000u ? 1u : 0u;
-        if (bad) return i;
-    }
+    int32_t all = 0;
+    for (uint64_t i = 0; i < count; ++i) all |= nonFinite<kUsed>(words + i * kStride);
+    for (uint64_t i = 0; all < 0 && i < count; ++i)
+        if (nonFinite<kUsed>(words + i * kStride) < 0) return i;
     return count;
 }
 
@@ -691,6 +740,10 @@ inline minirt_result readTable(BlobReader& r, minirt_blob_section* table) {
         expected = s.offset + alignSection(s.size);
     }
     if (expected != r.size) return r.fail(MINIRT_ERROR_TRUNCATED, "%llu bytes of sections in a file of %llu", expected, r.size);
+    return MINIRT_OK;
+}
+
+inline minirt_result checkSums(BlobReader& r, const minirt_blob_section* table) {
     for (uint32_t i = 0; i < r.header.section_count; ++i) {
         if (minirt_checksum(r.data + table[i].offset, static_cast<size_t>(alignSection(table[i].size))) != table[i].checksum)
             return r.fail(MINIRT_ERROR_CHECKSUM, "section %llu is damaged; bake the scene again", i);
@@ -781,7 +834,7 @@ inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
         return r.fail(MINIRT_ERROR_CORRUPT, "unknown integrator %llu", s.integrator);
     if (s.bvh_depth == 0 || s.bvh_depth > 64) return r.fail(MINIRT_ERROR_CORRUPT, "a hierarchy of depth %llu", s.bvh_depth);
     const minirt_scene_rows& rows = *b.rows;
-    if (firstNonFinite(&rows, 1, 0, 24) != 1)
+    if (firstNonFinite<24, 24>(&rows, 1) != 1)
         return r.fail(MINIRT_ERROR_CORRUPT, "the scene's rows hold a number that is not finite");
     if (rows.gridScale.x <= 0 || rows.gridScale.y <= 0 || rows.gridScale.z <= 0)
         return r.fail(MINIRT_ERROR_CORRUPT, "a grid of no size");
@@ -830,7 +883,7 @@ inline minirt_result checkNodes(BlobReader& r, const minirt_blob& b, uint8_t* de
     }
     if (isFloat) {
         for (uint64_t row = 0; row < 4; ++row)
-            if (firstNonFinite(b.nodes + row * 4, b.node_count, 16, 3) != b.node_count)
+            if (firstNonFinite<16, 3>(b.nodes + row * 4, b.node_count) != b.node_count)
                 return r.fail(MINIRT_ERROR_CORRUPT, "a node's box is not finite");
     }
     return MINIRT_OK;
@@ -844,7 +897,7 @@ inline uint32_t bitsOf(float value) {
 
 inline minirt_result checkPrimitives(BlobReader& r, const minirt_blob& b) {
     const uint64_t rows = b.primitive_count * 3;
-    const uint64_t bad = firstNonFinite(b.primitives, rows, 4, 3);
+    const uint64_t bad = firstNonFinite<4, 3>(b.primitives, rows);
     if (bad != rows) return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu holds a number that is not finite", bad / 3);
     const uint64_t cornerCount = b.normal_count ? b.normal_count : b.uv_count;
     if (b.normal_count && b.uv_count && b.normal_count != b.uv_count)
@@ -856,9 +909,9 @@ inline minirt_result checkPrimitives(BlobReader& r, const minirt_blob& b) {
         if (corners != MINIRT_NONE && corners >= cornerCount)
             return r.fail(MINIRT_ERROR_CORRUPT, "primitive %llu has no corners", i);
     }
-    if (firstNonFinite(b.normals, b.normal_count * 3, 4, 4) != b.normal_count * 3)
+    if (firstNonFinite<4, 4>(b.normals, b.normal_count * 3) != b.normal_count * 3)
         return r.fail(MINIRT_ERROR_CORRUPT, "a normal is not finite");
-    if (firstNonFinite(b.uvs, b.uv_count * 2, 4, 4) != b.uv_count * 2)
+    if (firstNonFinite<4, 4>(b.uvs, b.uv_count * 2) != b.uv_count * 2)
         return r.fail(MINIRT_ERROR_CORRUPT, "a texture coordinate is not finite");
     return MINIRT_OK;
 }
@@ -903,7 +956,7 @@ inline bool isPlainMaterial(const minirt_blob& b, uint32_t index) {
 inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
     for (uint64_t i = 0; i < b.material_count; ++i) {
         const minirt_material& m = b.materials[i];
-        if (firstNonFinite(&m, 1, 0, 24) != 1 || firstNonFinite(&m.base, 1, 0, 8) != 1)
+        if (firstNonFinite<24, 24>(&m, 1) != 1 || firstNonFinite<8, 8>(&m.base, 1) != 1)
             return r.fail(MINIRT_ERROR_CORRUPT, "material %llu holds a number that is not finite", i);
         if (m.emission.w < 0) return r.fail(MINIRT_ERROR_CORRUPT, "material %llu is picked with a negative density", i);
         if (!isImage(b, m.options.y) || !isImage(b, m.images.x) || !isImage(b, m.images.y) || !isImage(b, m.images.z))
@@ -912,7 +965,7 @@ inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
             (!isPlainMaterial(b, m.options.z) || !isPlainMaterial(b, m.options.w) || m.checker.w <= 0))
             return r.fail(MINIRT_ERROR_CORRUPT, "material %llu is no valid checker", i);
     }
-    if (b.light_count && firstNonFinite(b.lights, b.light_count, 16, 12) != b.light_count)
+    if (b.light_count && firstNonFinite<16, 12>(b.lights, b.light_count) != b.light_count)
         return r.fail(MINIRT_ERROR_CORRUPT, "a light is not finite");
     for (uint64_t i = 0; i < b.image_count; ++i) {
         const minirt_image& image = b.images[i];
@@ -924,13 +977,13 @@ inline minirt_result checkAppearance(BlobReader& r, const minirt_blob& b) {
     }
     for (uint64_t i = 0; i < b.medium_count; ++i) {
         const minirt_medium& m = b.media[i];
-        if (firstNonFinite(&m, 1, 0, 20) != 1 || !(m.ior.x > 0 && m.ior.y > 0 && m.ior.z > 0 && m.ior.w > 0) ||
+        if (firstNonFinite<20, 20>(&m, 1) != 1 || !(m.ior.x > 0 && m.ior.y > 0 && m.ior.z > 0 && m.ior.w > 0) ||
             !(m.absorption.x >= 0 && m.absorption.y >= 0 && m.absorption.z >= 0))
             return r.fail(MINIRT_ERROR_CORRUPT, "medium %llu is none", i);
     }
     if (b.spectrum_count && b.spectrum_count != 1u << MINIRT_SPECTRUM_BITS)
         return r.fail(MINIRT_ERROR_CORRUPT, "a spectrum of %llu wavelengths", b.spectrum_count);
-    if (firstNonFinite(b.spectrum, b.spectrum_count, 4, 4) != b.spectrum_count)
+    if (firstNonFinite<4, 4>(b.spectrum, b.spectrum_count) != b.spectrum_count)
         return r.fail(MINIRT_ERROR_CORRUPT, "the spectrum holds a number that is not finite");
     for (uint64_t i = 0; i < b.spectrum_count; ++i)
         if (b.spectrum[i].w <= 0) return r.fail(MINIRT_ERROR_CORRUPT, "entry %llu of the spectrum has no wavelength", i);
@@ -965,25 +1018,48 @@ inline minirt_result checkKernels(BlobReader& r, const minirt_blob& b) {
     return MINIRT_OK;
 }
 
+/* A blob that is being checked. */
+struct BlobCheck {
+    BlobReader reader;
+    minirt_blob_section table[MINIRT_MAX_SECTIONS];
+    minirt_blob blob;
+    uint8_t* depth; /* of each node; scratch of checkNodes */
+};
+
+/* Finds the sections, all within the data, and the memory that checkContents needs. */
+inline minirt_result openBlob(BlobCheck& check, const minirt_allocator& allocator) {
+    BlobReader& r = check.reader;
+    if (r.validation) r.validation->message[0] = 0;
+    if (!r.data) return r.fail(MINIRT_ERROR_INVALID_ARGUMENT, "no data");
+    if (reinterpret_cast<uintptr_t>(r.data) % 16)
+        return r.fail(MINIRT_ERROR_INVALID_ARGUMENT, "the data is not aligned to 16 bytes");
+    if (readHeader(r) || readTable(r, check.table)) return r.result;
+    if (findSections(r, check.table, check.blob)) {
+        checkSums(r, check.table); /* where it fails, it explains what else is wrong */
+        return r.result;
+    }
+    check.depth = static_cast<uint8_t*>(hostAllocate(allocator, static_cast<size_t>(check.blob.node_count)));
+    return check.depth ? MINIRT_OK : r.fail(MINIRT_ERROR_OUT_OF_MEMORY, "no memory to check the hierarchy");
+}
+
+/* What the sections hold. */
+inline minirt_result checkContents(BlobCheck& check) {
+    BlobReader& r = check.reader;
+    const minirt_blob& blob = check.blob;
+    if (checkSums(r, check.table) || checkScene(r, blob) || checkNodes(r, blob, check.depth) || checkPrimitives(r, blob) ||
+        checkAppearance(r, blob) || checkPicks(r, blob) || checkKernels(r, blob))
+        return r.result;
+    return MINIRT_OK;
+}
+
 inline minirt_result validate(const void* data, size_t size, minirt_blob* out, minirt_validation* validation,
                               const minirt_allocator& allocator) {
-    minirt_blob blob = {};
-    if (out) *out = blob;
-    if (validation) validation->message[0] = 0;
-    BlobReader r{static_cast<const uint8_t*>(data), size, {}, validation};
-    if (!data) return r.fail(MINIRT_ERROR_INVALID_ARGUMENT, "no data");
-    if (reinterpret_cast<uintptr_t>(data) % 16)
-        return r.fail(MINIRT_ERROR_INVALID_ARGUMENT, "the data is not aligned to 16 bytes");
-    minirt_blob_section table[MINIRT_MAX_SECTIONS];
-    if (readHeader(r) || readTable(r, table) || findSections(r, table, blob) || checkScene(r, blob)) return r.result;
-    uint8_t* depth = static_cast<uint8_t*>(hostAllocate(allocator, static_cast<size_t>(blob.node_count)));
-    if (!depth) return r.fail(MINIRT_ERROR_OUT_OF_MEMORY, "no memory to check the hierarchy");
-    checkNodes(r, blob, depth);
-    hostRelease(allocator, depth);
-    if (r.result || checkPrimitives(r, blob) || checkAppearance(r, blob) || checkPicks(r, blob) || checkKernels(r, blob))
-        return r.result;
-    if (out) *out = blob;
-    return MINIRT_OK;
+    BlobCheck check = {{static_cast<const uint8_t*>(data), size, {}, validation}, {}, {}, nullptr};
+    minirt_result r = openBlob(check, allocator);
+    if (!r) r = checkContents(check);
+    hostRelease(allocator, check.depth);
+    if (out) *out = r ? minirt_blob() : check.blob;
+    return r;
 }
 
 /* >>implementation-vulkan */
@@ -1031,6 +1107,7 @@ struct Buffer {
 enum class Placement { device, readBack, upload };
 
 constexpr uint32_t kMostKernels = 6; /* of an integrator */
+static_assert(kMostKernels <= kMostTasks, "their pipelines are made at once");
 
 }  // namespace minirt_detail
 
@@ -1165,6 +1242,8 @@ inline void closeLoader(minirt_context* c) {
     dlclose(c->loader);
 #endif
     c->loader = nullptr;
+#else
+    (void)c;
 #endif
 }
 
@@ -1516,6 +1595,19 @@ inline void destroyBuffer(minirt_context* c, Buffer& buffer) {
     buffer = Buffer();
 }
 
+/* Of a CPU device's memory, before it is written: large pages are filled sooner and found sooner. A hint, no more. */
+inline void wantLargePages(const minirt_context* c, void* memory, VkDeviceSize size) {
+#if defined(MINIRT_HAS_MMAP) && defined(MADV_HUGEPAGE)
+    constexpr uintptr_t kLargePage = 2u << 20;
+    const uintptr_t start = reinterpret_cast<uintptr_t>(memory);
+    const uintptr_t first = (start + kLargePage - 1) / kLargePage * kLargePage;
+    const uintptr_t end = (start + static_cast<uintptr_t>(size)) / kLargePage * kLargePage;
+    if (c->info.is_cpu && first < end) madvise(static_cast<uint8_t*>(memory) + (first - start), end - first, MADV_HUGEPAGE);
+#else
+    (void)c, (void)memory, (void)size;
+#endif
+}
+
 inline minirt_result makeBuffer(minirt_context* c, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement,
                                 Buffer& buffer) {
     VkBufferCreateInfo info = {};
@@ -1540,8 +1632,11 @@ inline minirt_result makeBuffer(minirt_context* c, VkDeviceSize size, VkBufferUs
     const VkMemoryPropertyFlags flags = c->memoryProperties.memoryTypes[type].propertyFlags;
     const bool map =
         (flags & mappable) == mappable && (placement != Placement::device || (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT));
-    return map ? check(c, c->vk.MapMemory(c->device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory")
-               : MINIRT_OK;
+    if (!map) return MINIRT_OK;
+    if (minirt_result r = check(c, c->vk.MapMemory(c->device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory"))
+        return r;
+    wantLargePages(c, buffer.mapped, size);
+    return MINIRT_OK;
 }
 
 /* Replaces `buffer`; on failure it is empty. */
@@ -1771,20 +1866,25 @@ inline bool needsFloat64(const uint32_t* words, size_t count) {
     return false;
 }
 
-inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel, VkPipeline* out) {
+inline minirt_result requirePrecision(const minirt_scene* s, const minirt_kernel& kernel) {
     minirt_context* c = s->context;
+    const uint32_t* words = static_cast<const uint32_t*>(static_cast<const void*>(s->spirv + kernel.spirv_offset));
+    if (c->float64 || !needsFloat64(words, static_cast<size_t>(kernel.spirv_size / 4))) return MINIRT_OK;
+    return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
+                c->ownsDevice ? "the kernels are in double precision, which the device does not offer (shaderFloat64); bake "
+                                "with precision=float"
+                              : "the kernels are in double precision; enable shaderFloat64 and say so in minirt_host_device");
+}
+
+/* Calls nothing but the driver: it runs on several threads. */
+inline VkResult makePipeline(const minirt_scene* s, const minirt_kernel& kernel, VkPipeline* out) {
+    const minirt_context* c = s->context;
     VkShaderModuleCreateInfo module = {};
     module.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     module.codeSize = static_cast<size_t>(kernel.spirv_size);
     module.pCode = static_cast<const uint32_t*>(static_cast<const void*>(s->spirv + kernel.spirv_offset));
-    if (!c->float64 && needsFloat64(module.pCode, module.codeSize / 4))
-        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
-                    c->ownsDevice ? "the kernels are in double precision, which the device does not offer (shaderFloat64); bake "
-                                    "with precision=float"
-                                  : "the kernels are in double precision; enable shaderFloat64 and say so in minirt_host_device");
     VkShaderModule shader = VK_NULL_HANDLE;
-    if (minirt_result r = check(c, c->vk.CreateShaderModule(c->device, &module, nullptr, &shader), "vkCreateShaderModule"))
-        return r;
+    if (const VkResult r = c->vk.CreateShaderModule(c->device, &module, nullptr, &shader)) return r;
 
     const Specialisation values = specialisation(s);
     static_assert(sizeof values == MINIRT_SPEC_COUNT * sizeof(uint32_t), "one word a constant, in the order of their ids");
@@ -1799,8 +1899,7 @@ inline minirt_result createPipeline(minirt_scene* s, const minirt_kernel& kernel
     pipeline.stage.pName = "main";
     pipeline.stage.pSpecializationInfo = &info;
     pipeline.layout = s->pipelineLayout;
-    const minirt_result r =
-        check(c, c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, out), "vkCreateComputePipelines");
+    const VkResult r = c->vk.CreateComputePipelines(c->device, VK_NULL_HANDLE, 1, &pipeline, nullptr, out);
     c->vk.DestroyShaderModule(c->device, shader, nullptr);
     return r;
 }
@@ -1879,11 +1978,22 @@ inline bool hasIntegrator(const minirt_scene* s, uint32_t integrator) {
     return findKernel(s, integratorKernel(integrator, 0)) != nullptr;
 }
 
+/* At once, as drivers translate each kernel by itself; but one after the other where the validation layer may call back. */
 inline minirt_result createPipelines(minirt_scene* s, const minirt_kernel* const* kernels) {
-    minirt_result r = MINIRT_OK;
-    for (uint32_t i = 0; i < kMostKernels && !r; ++i)
-        if (kernels[i]) r = createPipeline(s, *kernels[i], &s->pipelines[i]);
-    return r;
+    VkResult results[kMostKernels] = {};
+    uint32_t present[kMostKernels];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < kMostKernels; ++i) {
+        if (!kernels[i]) continue;
+        if (minirt_result r = requirePrecision(s, *kernels[i])) return r;
+        present[count++] = i;
+    }
+    const auto make = [&](uint32_t i) { results[i] = makePipeline(s, *kernels[present[i]], &s->pipelines[present[i]]); };
+    const uint32_t atATime = s->context->messenger ? 1 : count;
+    for (uint32_t first = 0; first < count; first += atATime) atOnce(atATime, [&](uint32_t i) { make(first + i); });
+    for (VkResult result : results)
+        if (minirt_result r = check(s->context, result, "making a pipeline")) return r;
+    return MINIRT_OK;
 }
 
 /* Pipelines of kernels that share one descriptor set; NULL where there is none. */
@@ -2348,23 +2458,38 @@ inline minirt_result copyKernels(minirt_scene* s, const minirt_blob& blob) {
     return MINIRT_OK;
 }
 
+inline minirt_result fillScene(minirt_scene* s, const minirt_blob& blob) {
+    const double start = nowMs();
+    s->desc = *blob.scene;
+    minirt_result r = copyKernels(s, blob);
+    if (!r) r = uploadScene(s, blob);
+    s->uploadMs = nowMs() - start;
+    return r;
+}
+
+/* Uploads while another thread checks: nothing runs on the device before both are done. */
+inline minirt_result checkAndFill(minirt_scene* s, BlobCheck& check, double startMs) {
+    minirt_result results[2];
+    atOnce(2, [&](uint32_t task) {
+        results[task] = task == 0 ? fillScene(s, check.blob) : checkContents(check);
+        if (task == 1) s->loadMs = nowMs() - startMs;
+    });
+    return results[1] ? results[1] : results[0];
+}
+
 inline minirt_result createScene(minirt_context* c, const void* data, size_t size, double startMs, minirt_scene** out) {
-    minirt_blob blob;
     minirt_validation validation;
-    if (minirt_result r = validate(data, size, &blob, &validation, c->allocator)) return fail(c, r, "%s", validation.message);
+    BlobCheck check = {{static_cast<const uint8_t*>(data), size, {}, &validation}, {}, {}, nullptr};
     minirt_scene* s = hostNew<minirt_scene>(c->allocator);
     if (!s) return fail(c, MINIRT_ERROR_OUT_OF_MEMORY, "out of host memory");
     s->context = c;
-    s->desc = *blob.scene;
-    s->loadMs = nowMs() - startMs;
-    const double uploadStart = nowMs();
-    minirt_result r = copyKernels(s, blob);
-    if (!r) r = uploadScene(s, blob);
+    minirt_result r = openBlob(check, c->allocator);
+    if (!r) r = checkAndFill(s, check, startMs);
+    hostRelease(c->allocator, check.depth);
     if (r) {
         destroyScene(s);
-        return r;
+        return check.reader.result ? fail(c, r, "%s", validation.message) : r;
     }
-    s->uploadMs = nowMs() - uploadStart;
     s->next = c->scenes;
     c->scenes = s;
     *out = s;
@@ -2491,16 +2616,18 @@ const char* minirt_result_string(minirt_result result) {
 }
 
 uint64_t minirt_checksum(const void* data, size_t size) {
-    uint64_t lanes[4] = {0x243F6A8885A308D3ull, 0x13198A2E03707344ull, 0xA4093822299F31D0ull, 0x082EFA98EC4E6C89ull};
+    using minirt_detail::mixLane;
+    uint64_t a = 0x243F6A8885A308D3ull, b = 0x13198A2E03707344ull, c = 0xA4093822299F31D0ull, d = 0x082EFA98EC4E6C89ull;
     const uint8_t* bytes = static_cast<const uint8_t*>(data);
-    for (size_t at = 0; at + 32 <= size; at += 32) {
+    for (size_t at = 0; at + 32 <= size; at += 32) { /* four chains at once; as an array they would stay in memory */
         uint64_t words[4];
         memcpy(words, bytes + at, sizeof words);
-        for (int i = 0; i < 4; ++i) lanes[i] = minirt_detail::mixLane(lanes[i], words[i]);
+        a = mixLane(a, words[0]);
+        b = mixLane(b, words[1]);
+        c = mixLane(c, words[2]);
+        d = mixLane(d, words[3]);
     }
-    uint64_t sum = size;
-    for (uint64_t lane : lanes) sum = minirt_detail::mixLane(sum, lane);
-    return sum;
+    return mixLane(mixLane(mixLane(mixLane(size, a), b), c), d);
 }
 
 uint64_t minirt_header_checksum(const void* data, size_t size) {

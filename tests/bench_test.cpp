@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include "agreement.hpp"
+#include "commands.hpp"
 #include "embree_rays.hpp"
 #include "embree_tree.hpp"
 #include "meshes.hpp"
 #include "ray_sets.hpp"
+#include "scaling.hpp"
 #include "support.hpp"
 #include "timing.hpp"
 
@@ -35,15 +39,6 @@ bool same(const std::vector<Ray>& a, const std::vector<Ray>& b) {
 
 }  // namespace
 
-TEST_CASE("spreads are the median with the extremes") {
-    const Spread odd = spreadOf({5, 1, 3});
-    CHECK(odd.median == 3);
-    CHECK(odd.low == 1);
-    CHECK(odd.high == 5);
-    CHECK(spreadOf({4, 1, 2, 8}).median == 3);
-    CHECK(spreadOf({7}).median == 7);
-}
-
 TEST_CASE("contenders take turns, and the first round does not count") {
     std::string turns;
     double ms = 0;
@@ -54,8 +49,7 @@ TEST_CASE("contenders take turns, and the first round does not count") {
     CHECK(times[0].ms == std::vector<double>{2, 3});
     CHECK(times[1].ms == std::vector<double>{50, 50});
     const Spread ratio = ratioTo(times[1].ms, times[0].ms);
-    CHECK(ratio.low == doctest::Approx(50.0 / 3));
-    CHECK(ratio.high == 25);
+    CHECK(ratio.median == doctest::Approx(0.5 * (50.0 / 3 + 25)));
 }
 
 TEST_CASE("primary rays go through the centres of all pixels, in tiles") {
@@ -164,6 +158,30 @@ TEST_CASE("hits agree where both miss or both are near, any hits where both hit"
     CHECK_FALSE(many.good());
 }
 
+TEST_CASE("scaling is what each keeps of its rays per second from the smallest mesh on") {
+    const auto rate = [](double median) { return Spread{median, median, median}; };
+    const auto mesh = [&](uint64_t triangles, double own, double peer) {
+        RaySetResult set;
+        set.rays = "primary";
+        set.contenders = {{"minirt", rate(own), rate(1 / own), {}, {}, {}, false},
+                          {"other", rate(1), rate(1), {}, {}, {}, false},
+                          {"judge", rate(peer), rate(2 / peer), {}, {}, {}, true}};
+        return MeshRays{triangles, {set}};
+    };
+    const std::vector<Scaling> scaling = scalingOf({mesh(500, 10, 30), mesh(100, 40, 60), mesh(900, 5, 10)});
+    REQUIRE(scaling.size() == 2);
+    CHECK(scaling[0].peer == "judge");
+    CHECK(scaling[0].from == 100);
+    CHECK(scaling[0].to == 500);
+    CHECK(scaling[0].own == doctest::Approx(0.25));
+    CHECK(scaling[0].peers == doctest::Approx(0.5));
+    CHECK(scaling[0].ratio() == doctest::Approx(0.5));
+    CHECK(scaling[1].ratioByProcessor() == doctest::Approx(0.75));
+    MeshRays alone = mesh(100, 40, 60);
+    alone.sets[0].contenders.resize(2);
+    CHECK(scalingOf({alone, mesh(500, 10, 30)}).empty());
+}
+
 TEST_CASE("knots have about as many triangles as asked for") {
     for (const uint32_t triangles : {200u, 1000u, 70000u}) {
         const Mesh knot = knotMesh(triangles);
@@ -172,8 +190,26 @@ TEST_CASE("knots have about as many triangles as asked for") {
     }
 }
 
+TEST_CASE("the knot that minirt-bench starts bakes for the integrator that it names") {
+    const test::TemporaryDir dir;
+    for (const char* integrator : {"whitted", "path"}) {
+        minirtc::BakeOptions options;
+        options.scene = writeKnotScene(dir.path(), 500, integrator).string();
+        options.output = (dir.path() / "knot.mrt").string();
+        options.quiet = true;
+        options.onlyDefault = true;
+        REQUIRE(minirtc::bake(options) == 0);
+        std::ifstream file(options.output, std::ios::binary);
+        const std::vector<char> blob{std::istreambuf_iterator<char>(file), {}};
+        minirt_blob parts;
+        REQUIRE(minirt_validate(blob.data(), blob.size(), &parts, nullptr) == MINIRT_OK);
+        CHECK(std::string(parts.kernels->name) == integrator);
+        CHECK(parts.primitive_count == doctest::Approx(500).epsilon(0.05));
+    }
+}
+
 TEST_CASE("Embree's hierarchies hold every triangle, and their cost is that of such trees") {
-    if (!EmbreeRays::available()) return test::skip("needs Embree 3");
+    if (!EmbreeScene::available()) return test::skip("needs Embree 3");
     const Mesh knot = knotMesh(5000);
     const minirtc::Bvh own = minirtc::buildBvh(knot.geometry, 2, minirtc::BvhQuality::fast);
     for (const EmbreeQuality quality : {EmbreeQuality::low, EmbreeQuality::medium, EmbreeQuality::high}) {
@@ -190,10 +226,10 @@ TEST_CASE("Embree's hierarchies hold every triangle, and their cost is that of s
 }
 
 TEST_CASE("Embree's packets find what its single rays find") {
-    if (!EmbreeRays::available()) return test::skip("needs Embree 3");
+    if (!EmbreeScene::available()) return test::skip("needs Embree 3");
     const Mesh knot = knotMesh(2000);
     const std::vector<Ray> rays = primaryRays(surroundingsOf(knot.triangles), 64, 64);
-    EmbreeRays embree(knot.triangles, EmbreeRays::Mode::robust);
+    EmbreeRays embree(knot.triangles, EmbreeScene::Mode::robust);
     embree.setRays({rays.begin(), rays.end() - 3}, true);  // the last packet is not full
     for (const bool anyHit : {false, true}) {
         embree.trace(anyHit, EmbreeRays::Packing::single);

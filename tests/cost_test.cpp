@@ -165,14 +165,14 @@ TEST_CASE("the estimate of the bias finds an offset under noise, and none where 
 }
 
 TEST_CASE("quartiles lie between their neighbours") {
-    const cost::Spread spread = cost::spreadOf({5, 1, 3, 2, 4});
+    const Spread spread = spreadOf({5, 1, 3, 2, 4});
     CHECK(spread.median == 3);
     CHECK(spread.lower == 2);
     CHECK(spread.upper == 4);
-    CHECK(cost::spreadOf({1, 2}).median == 1.5);
-    CHECK(cost::spreadOf({7}).upper == 7);
-    CHECK(cost::covers(spread, 2));
-    CHECK_FALSE(cost::covers(spread, 1.9));
+    CHECK(spreadOf({1, 2}).median == 1.5);
+    CHECK(spreadOf({7}).upper == 7);
+    CHECK(covers(spread, 2));
+    CHECK_FALSE(covers(spread, 1.9));
 }
 
 TEST_CASE("a device that slows down in some rounds changes no ratio") {
@@ -182,7 +182,7 @@ TEST_CASE("a device that slows down in some rounds changes no ratio") {
         for (size_t i = 0; i < settings.size(); ++i)
             settings[i].push_back({round, 10.0 * static_cast<double>(i + 1) * drift[round]});
     cost::removeDrift(settings, 3);
-    const cost::Spread ratio = cost::ratioOf(settings[2], settings[0]);
+    const Spread ratio = cost::ratioOf(settings[2], settings[0]);
     CHECK(ratio.lower == doctest::Approx(3));
     CHECK(ratio.upper == doctest::Approx(3));
 }

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
-#include <memory>
 #include <vector>
+
+#include "../samples/common/embree_scene.hpp"
 
 namespace oracle {
 
@@ -78,21 +79,9 @@ private:
 
 // --- Closest hits by Embree
 
-/// Embree 3 with the robust flag, one ray at a time, in float. Only where available(): else a test that needs it skips.
-/// No judge of watertightness: of rays aimed at vertices of a closed mesh it lets about one in a hundred through.
-class EmbreeScene {
-public:
-    static bool available();
-    explicit EmbreeScene(const Mesh& mesh);
-    ~EmbreeScene();
-    EmbreeScene(EmbreeScene&&) noexcept;
-    EmbreeScene& operator=(EmbreeScene&&) noexcept;
-    Hit closestHit(const Ray& ray) const;
-
-private:
-    struct Handles;
-    std::unique_ptr<Handles> handles_;
-};
+/// One ray at a time, in float. Only where EmbreeScene::available(): else a test that needs it skips. No judge of watertightness: of rays aimed at
+/// vertices of a closed mesh Embree, robust or not, lets about one in a hundred through.
+Hit closestHit(const EmbreeScene& scene, const Ray& ray);
 
 // --- Rays. All start outside of the mesh's bounds, unless said, with tMin 0 and tMax infinite; equal seeds give equal rays.
 

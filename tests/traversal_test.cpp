@@ -239,11 +239,11 @@ std::vector<Ray> raysFromSurface(const oracle::Mesh& mesh, const std::vector<Ray
 
 void compareWithEmbree(const std::string& name) {
     if (!test::haveShared("scenes/real/meshes/" + name)) return;
-    if (!oracle::EmbreeScene::available()) return test::skip("needs Embree 3");
+    if (!EmbreeScene::available()) return test::skip("needs Embree 3");
     GpuContext gpu;
     if (!gpu) return;
     const Model model = load(name);
-    const oracle::EmbreeScene embree(model.mesh);
+    const EmbreeScene embree(model.mesh, EmbreeScene::Mode::robust);
     const Judge judge(model.mesh);
     for (LayoutChoice layout : kLayouts) {
         RayQuery query(gpu.get(), model.scene, model.geometry, layout);
@@ -252,7 +252,7 @@ void compareWithEmbree(const std::string& name) {
         const auto compare = [&](const std::vector<Ray>& rays) {
             const std::vector<QueryHit> hits = query.trace(rays, QueryMode::closest);
             for (size_t i = 0; i < rays.size(); ++i) {
-                const oracle::Hit hit = embree.closestHit(rays[i]);
+                const oracle::Hit hit = oracle::closestHit(embree, rays[i]);
                 compared++;
                 if (!judge.agree(rays[i], hit, hits[i]))
                     judge.compare(rays[i], judge.closestHit(rays[i]), hits[i], differing);

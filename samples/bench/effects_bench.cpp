@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "stage.hpp"
+#include "start_bench.hpp"
 
 namespace bench {
 namespace {
@@ -44,7 +45,7 @@ EffectsResult benchEffects(const fs::path& scene, const EffectsOptions& options)
     std::vector<std::unique_ptr<Stage>> stages;
     for (size_t i = 0; i < 2; ++i) {
         kernels[i]->spirvBytes = bake(scene, blobs[i], i == 1);
-        kernels[i]->firstDispatchMs = start(options.device, blobs[i].string()).pipeline;
+        kernels[i]->firstDispatchMs = start(options.device, blobs[i], folder.path()).pipeline;
         stages.push_back(std::make_unique<Stage>(options.device, blobs[i].string()));
         Stage& stage = *stages.back();
         stage.load();

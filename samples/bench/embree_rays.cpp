@@ -70,17 +70,13 @@ void anyHits(RTCScene scene, RTCIntersectContext& context, const Ray* rays, Hit*
 }  // namespace
 
 struct EmbreeRays::Insides {
-    RTCDevice device = rtcNewDevice(nullptr);
-    RTCScene scene = rtcNewScene(device);
+    EmbreeScene scene;
     minirtc::ThreadPool pool{0};
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     bool coherent = false;
 
-    ~Insides() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-    }
+    Insides(const Triangles& mesh, EmbreeScene::Mode mode) : scene(mesh, mode) {}
 
     void traceChunk(size_t begin, size_t end, bool any, Packing packing) {
         RTCIntersectContext context;
@@ -88,31 +84,12 @@ struct EmbreeRays::Insides {
         context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         size_t i = begin;
         if (packing == Packing::eight)
-            for (; i + 8 <= end; i += 8) (any ? anyHits : closestHits)(scene, context, &rays[i], &hits[i]);
-        for (; i < end; ++i) hits[i] = (any ? anyHit : closestHit)(scene, context, rays[i]);
+            for (; i + 8 <= end; i += 8) (any ? anyHits : closestHits)(scene.handle(), context, &rays[i], &hits[i]);
+        for (; i < end; ++i) hits[i] = (any ? anyHit : closestHit)(scene.handle(), context, rays[i]);
     }
 };
 
-bool EmbreeRays::available() {
-    return true;
-}
-
-EmbreeRays::EmbreeRays(const Triangles& mesh, Mode mode) : insides_(new Insides) {
-    RTCGeometry geometry = rtcNewGeometry(insides_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * mesh.size()));
-    auto* indices = static_cast<uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), mesh.size()));
-    for (size_t i = 0; i < 3 * mesh.size(); ++i) {
-        for (int axis = 0; axis < 3; ++axis) positions[3 * i + axis] = mesh[i / 3][i % 3][axis];
-        indices[i] = static_cast<uint32_t>(i);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(insides_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    if (mode == Mode::robust) rtcSetSceneFlags(insides_->scene, RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(insides_->scene);
-}
+EmbreeRays::EmbreeRays(const Triangles& mesh, EmbreeScene::Mode mode) : insides_(new Insides(mesh, mode)) {}
 
 EmbreeRays::~EmbreeRays() = default;
 
@@ -140,10 +117,7 @@ const std::vector<Hit>& EmbreeRays::hits() const {
 struct EmbreeRays::Insides {
     std::vector<Hit> hits;
 };
-bool EmbreeRays::available() {
-    return false;
-}
-EmbreeRays::EmbreeRays(const Triangles&, Mode) : insides_(new Insides) {}
+EmbreeRays::EmbreeRays(const Triangles&, EmbreeScene::Mode) : insides_(new Insides) {}
 EmbreeRays::~EmbreeRays() = default;
 void EmbreeRays::setRays(const std::vector<Ray>&, bool) {}
 double EmbreeRays::trace(bool, Packing) {

@@ -3,20 +3,17 @@
 #include <memory>
 #include <vector>
 
+#include "../common/embree_scene.hpp"
 #include "ray_sets.hpp"
 
 namespace bench {
 
 class EmbreeRays {
 public:
-    enum class Mode { robust, fast };  // RTC_SCENE_FLAG_ROBUST or Embree's default
     enum class Packing { single, eight };
 
-    /// False where minirt was built without Embree: then nothing else may be called.
-    static bool available();
-
-    /// Builds at medium quality, Embree's default.
-    EmbreeRays(const Triangles& mesh, Mode mode);
+    /// Only where EmbreeScene::available().
+    EmbreeRays(const Triangles& mesh, EmbreeScene::Mode mode);
     ~EmbreeRays();
     EmbreeRays(const EmbreeRays&) = delete;
     EmbreeRays& operator=(const EmbreeRays&) = delete;

@@ -53,14 +53,14 @@ SceneResult benchScene(const fs::path& file, const FrameOptions& options) {
         result.bakeMs = nowMs() - begin;
     }
     result.blobBytes = fs::file_size(blob);
+    result.starts = benchStarts(options.device, blob, options.rounds);
     useShaderCache(folder.path());
-    result.cold = start(options.device, blob);
-    result.cached = start(options.device, blob);
     Stage stage(options.device, blob);
     stage.load();
+    result.load = benchLoad(stage.context(), blob, options.rounds);
     result.width = stage.scene().width;
     result.height = stage.scene().height;
-    result.frames = benchFrames(stage, options);
+    if (options.pictures) result.frames = benchFrames(stage, options);
     return result;
 }
 

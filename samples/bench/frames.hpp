@@ -1,10 +1,12 @@
-// Whole pictures of scenes, by each integrator, and what it takes until the first pixel is there.
+// Whole pictures of scenes, by each integrator, and what it takes until the first one is there.
 #pragma once
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "load_bench.hpp"
 #include "stage.hpp"
+#include "start_bench.hpp"
 #include "timing.hpp"
 
 namespace bench {
@@ -13,6 +15,7 @@ struct FrameOptions {
     std::string device;  // number or part of the name; "": the best
     uint32_t samples = 4;
     int rounds = 5;
+    bool pictures = true;  // else only starts and loads
 };
 
 struct FrameResult {
@@ -25,8 +28,9 @@ struct SceneResult {
     std::string scene;
     uint32_t width = 0, height = 0;
     uint64_t blobBytes = 0;
-    double bakeMs = 0;         // 0: it was a blob already
-    StartResult cold, cached;  // the driver's cache of compiled shaders empty, and filled by the run before
+    double bakeMs = 0;  // 0: it was a blob already
+    StartsResult starts;
+    LoadResult load;
     std::vector<FrameResult> frames;
 };
 

@@ -23,6 +23,7 @@ struct Options {
     RayBenchOptions rays;
     std::vector<std::string> frames;
     std::vector<std::string> effects;
+    uint32_t startTriangles = 0;  // 0: no knot is started
     uint32_t samples = 4;
     bool trees = true;
 };
@@ -39,7 +40,14 @@ void addOptions(CLI::App& app, Options& o) {
         "Examples:\n  minirt-bench\n  minirt-bench --scenes meshes --json bench.json\n  minirt-bench --frames still_life.json");
     app.add_option("--scenes", o.scenes, "Folder of OBJ files to trace (default: knots, see below)");
     app.add_option("--knots", o.knots, "Without --scenes: triangles of each knot")->delimiter(',')->capture_default_str();
-    app.add_option("--frames", o.frames, "Scenes (.json) or blobs (.mrt) to render; then meshes only where they are asked for");
+    app.add_option("--frames", o.frames,
+                   "Scenes (.json) or blobs (.mrt) to start, load and render; then meshes only where they are asked for");
+    app.add_option(
+           "--start", o.startTriangles,
+           "Start and load a knot of so many triangles (70000 where no number is given), by Whitted's tracer and as paths; "
+           "then meshes only where they are asked for")
+        ->expected(0, 1)
+        ->default_str("70000");
     app.add_option("--effects", o.effects,
                    "Scenes (.json) to render by kernels with the effects that they call for, and with all; then meshes only "
                    "where they are asked for");
@@ -70,7 +78,8 @@ void settle(const CLI::App& app, const minirt_device_info& device, Options& o) {
 }
 
 /// Returns whether all hits agree.
-bool benchMesh(const Mesh& mesh, const Options& o, const Device& device, DriverPipeline* pipeline, Json& json) {
+bool benchMesh(const Mesh& mesh, const Options& o, const Device& device, DriverPipeline* pipeline, std::vector<MeshRays>& all,
+               Json& json) {
     const size_t triangles = mesh.triangles.size();
     const minirtc::Bvh bvh = minirtc::buildBvh(mesh.geometry, 0, kQualities.at(o.bvh));
     RayKernel kernel(device.context(), mesh.scene, mesh.geometry, bvh, kLayouts.at(o.layout));
@@ -78,6 +87,7 @@ bool benchMesh(const Mesh& mesh, const Options& o, const Device& device, DriverP
     std::printf("%s: %zu triangles, %s boxes; bytes a triangle: %.1f in the blob, %.1f on the device\n", mesh.name.c_str(),
                 triangles, kernel.layout(), perTriangle(kernel.bytes().blob), perTriangle(kernel.bytes().device));
     const std::vector<RaySetResult> rays = benchRays(mesh, kernel, pipeline, o.rays);
+    all.push_back({triangles, rays});
     print(rays);
     json = {{"mesh", mesh.name}, {"triangles", triangles}, {"layout", kernel.layout()}};
     json["bytes_per_triangle"] = {{"blob", perTriangle(kernel.bytes().blob)}, {"device", perTriangle(kernel.bytes().device)}};
@@ -124,21 +134,34 @@ bool run(const CLI::App& app, Options& o) {
     Json json = {{"device", info.name}, {"driver", info.driver}, {"processor_threads", threads}, {"rounds", o.rays.rounds}};
     json["seed"] = o.rays.seed;
     bool agrees = true;
+    std::vector<MeshRays> rays;
     const auto one = [&](const Mesh& mesh) {
         Json entry;
-        agrees = benchMesh(mesh, o, device, pipeline.get(), entry) && agrees;
+        agrees = benchMesh(mesh, o, device, pipeline.get(), rays, entry) && agrees;
         json["meshes"].push_back(entry);
     };
-    const bool withKnots = o.scenes.empty() && ((o.frames.empty() && o.effects.empty()) || app.count("--knots") > 0);
+    const bool otherWork = !o.frames.empty() || !o.effects.empty() || o.startTriangles > 0;
+    const bool withKnots = o.scenes.empty() && (!otherWork || app.count("--knots") > 0);
     if (withKnots)
         for (uint32_t triangles : o.knots) one(knotMesh(triangles));
     if (!o.scenes.empty())
         for (const std::filesystem::path& file : objFiles(o.scenes)) one(loadMesh(file));
-    for (const std::string& file : o.frames) {
-        const SceneResult result = benchScene(file, {o.device, o.samples, o.rays.rounds});
+    const std::vector<Scaling> scaling = scalingOf(rays);
+    if (!scaling.empty()) {
+        print(scaling);
+        json["scaling"] = toJson(scaling);
+    }
+    const auto scene = [&](const std::filesystem::path& file, bool pictures) {
+        const SceneResult result = benchScene(file, {o.device, o.samples, o.rays.rounds, pictures});
         print(result);
         json["scenes"].push_back(toJson(result));
+    };
+    if (o.startTriangles) {
+        const TemporaryFolder folder;
+        for (const char* integrator : {"whitted", "path"})
+            scene(writeKnotScene(folder.path(), o.startTriangles, integrator), false);
     }
+    for (const std::string& file : o.frames) scene(file, true);
     std::vector<EffectsResult> effects;
     for (const std::string& file : o.effects) {
         effects.push_back(benchEffects(file, effectsOptions(o, info)));

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "knot.hpp"
+#include "output.hpp"
 
 namespace bench {
 namespace {
@@ -22,6 +23,13 @@ Mesh flattened(const std::string& name, minirtc::Scene scene, minirtc::Mesh mesh
     result.geometry = minirtc::flatten(result.scene, diagnostics);
     for (const minirtc::Primitive& primitive : result.geometry.primitives) result.triangles.push_back(primitive.p);
     return result;
+}
+
+samples::Mesh knotOf(uint32_t triangles) {
+    samples::TorusKnot shape;
+    shape.sides = std::max(5, static_cast<int>(std::sqrt(triangles * 0.05625)));  // the sample's own proportions
+    shape.segments = std::max(10, static_cast<int>(triangles) / (2 * shape.sides));
+    return samples::torusKnot(shape);
 }
 
 }  // namespace
@@ -43,10 +51,7 @@ Mesh loadMesh(const std::filesystem::path& path) {
 }
 
 Mesh knotMesh(uint32_t triangles) {
-    samples::TorusKnot shape;
-    shape.sides = std::max(5, static_cast<int>(std::sqrt(triangles * 0.05625)));  // the sample's own proportions
-    shape.segments = std::max(10, static_cast<int>(triangles) / (2 * shape.sides));
-    const samples::Mesh knot = samples::torusKnot(shape);
+    const samples::Mesh knot = knotOf(triangles);
     minirtc::Mesh mesh;
     mesh.path = "knot";
     mesh.positions = knot.positions;
@@ -58,6 +63,19 @@ Mesh knotMesh(uint32_t triangles) {
             mesh.faces.push_back(triangle);
         }
     return flattened("knot", {}, std::move(mesh));
+}
+
+std::filesystem::path writeKnotScene(const std::filesystem::path& folder, uint32_t triangles, const std::string& integrator) {
+    samples::writeObj(knotOf(triangles), folder / "knot.obj");
+    std::filesystem::path scene = folder / ("knot_" + integrator + ".json");
+    samples::writeText(scene, R"({"camera": {"position": [0, 3, 4], "target": [0, 0, 0], "vfov": 40},
+ "background": {"color": [0.3, 0.4, 0.5]},
+ "lights": [{"type": "directional", "direction": [-1, -2, -1], "irradiance": [2, 2, 2]}],
+ "materials": {"clay": {"model": "pbr", "baseColor": [0.8, 0.7, 0.6], "metallic": 0, "roughness": 0.6}},
+ "objects": [{"mesh": "knot.obj", "material": "clay"}],
+ "render": {"size": [640, 480], "integrator": ")" +
+                                  integrator + "\"}}\n");
+    return scene;
 }
 
 }  // namespace bench

@@ -25,4 +25,7 @@ Mesh loadMesh(const std::filesystem::path& path);
 /// Of about `triangles` triangles, at least 100.
 Mesh knotMesh(uint32_t triangles);
 
+/// The same knot as a scene file with its mesh in `folder`, lit by a lamp and a sky. `integrator`: as in scene files. Throws std::runtime_error.
+std::filesystem::path writeKnotScene(const std::filesystem::path& folder, uint32_t triangles, const std::string& integrator);
+
 }  // namespace bench

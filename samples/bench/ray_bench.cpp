@@ -51,9 +51,9 @@ public:
           rounds_(options.rounds),
           tolerance_(kTolerance * surroundingsOf(mesh.triangles).radius) {
         if (pipeline_) pipeline_->setMesh(mesh.triangles);
-        if (!EmbreeRays::available() || options.alone) return;
-        robust_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeRays::Mode::robust);
-        fast_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeRays::Mode::fast);
+        if (!EmbreeScene::available() || options.alone) return;
+        robust_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeScene::Mode::robust);
+        fast_ = std::make_unique<EmbreeRays>(mesh.triangles, EmbreeScene::Mode::fast);
     }
 
     RaySetResult trace(const RaySet& set) {

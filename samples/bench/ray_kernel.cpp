@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "device_copy.hpp"
 #include "timing.hpp"
 
 // The insides of the runtime are used here. The program's copy of it is this one: linked first, it leaves the compiler's aside.
@@ -194,6 +195,36 @@ const char* RayKernel::layout() const {
 
 SceneBytes RayKernel::bytes() const {
     return insides_->bytes;
+}
+
+struct DeviceCopy::Insides {
+    minirt_context* context;
+    detail::Buffer target, staging;
+
+    ~Insides() {
+        detail::destroyBuffer(context, staging);
+        detail::destroyBuffer(context, target);
+    }
+
+    void require(minirt_result result) const {
+        if (result) throw std::runtime_error(std::string("copying to the device: ") + minirt_last_message(context));
+    }
+};
+
+DeviceCopy::DeviceCopy(minirt_context* context, size_t size) : insides_(new Insides{context, {}, {}}) {
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    insides_->require(detail::createBuffer(context, size, usage, detail::Placement::device, insides_->target));
+}
+
+DeviceCopy::~DeviceCopy() = default;
+
+void DeviceCopy::write(const void* data) {
+    detail::Buffer& target = insides_->target;
+    const size_t size = static_cast<size_t>(target.size);
+    if (target.mapped)
+        std::memcpy(target.mapped, data, size);
+    else
+        insides_->require(detail::uploadThroughStaging(insides_->context, target, data, size, insides_->staging));
 }
 
 }  // namespace bench

@@ -5,23 +5,42 @@
 namespace bench {
 namespace {
 
-Json toJson(const StartResult& start) {
-    return {{"context_ms", start.context},
-            {"load_ms", start.load},
-            {"upload_ms", start.upload},
-            {"pipeline_ms", start.pipeline},
-            {"first_pixel_ms", start.firstPixel}};
+void print(const char* name, const StartSpreads& start) {
+    std::printf(
+        "  %-22s %7.1f ms (%.1f-%.1f) from nothing to a picture of 64 x 64; load %.1f, upload %.1f, pipelines and first dispatch "
+        "%.1f\n",
+        name, start.process.median, start.process.lower, start.process.upper, start.load.median, start.upload.median,
+        start.pipeline.median);
 }
 
-void print(const char* name, const StartResult& start) {
-    std::printf("  %-24s first pixel after %.1f ms: context %.1f, load %.1f, upload %.1f, pipeline and first dispatch %.1f\n",
-                name, start.firstPixel, start.context, start.load, start.upload, start.pipeline);
+void print(const LoadResult& load) {
+    std::printf(
+        "  load %.2f ms (%.2f GB/s): %.2f (%.2f-%.2f) of a copy to the device, %.2f (%.2f-%.2f) of one into buffers written "
+        "before\n",
+        load.load.median, static_cast<double>(load.bytes) / load.load.median * 1e-6, load.ratio.median, load.ratio.lower,
+        load.ratio.upper, load.ratioAgain.median, load.ratioAgain.lower, load.ratioAgain.upper);
 }
 
 }  // namespace
 
 Json toJson(const Spread& spread) {
-    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+    return {{"median", spread.median}, {"lower", spread.lower}, {"upper", spread.upper}};
+}
+
+Json toJson(const StartSpreads& start) {
+    return {{"process_ms", toJson(start.process)},
+            {"load_ms", toJson(start.load)},
+            {"upload_ms", toJson(start.upload)},
+            {"pipeline_ms", toJson(start.pipeline)}};
+}
+
+Json toJson(const LoadResult& load) {
+    return {{"bytes", load.bytes},
+            {"load_ms", toJson(load.load)},
+            {"copy_ms", toJson(load.copy)},
+            {"copy_again_ms", toJson(load.copyAgain)},
+            {"copy_over_load", toJson(load.ratio)},
+            {"copy_again_over_load", toJson(load.ratioAgain)}};
 }
 
 Json toJson(const std::vector<RaySetResult>& results) {
@@ -50,10 +69,27 @@ Json toJson(const std::vector<TreeResult>& results) {
     return json;
 }
 
+Json toJson(const std::vector<Scaling>& results) {
+    Json json = Json::array();
+    for (const Scaling& s : results)
+        json.push_back({{"rays", s.rays},
+                        {"from_triangles", s.from},
+                        {"to_triangles", s.to},
+                        {"peer", s.peer},
+                        {"kept", s.own},
+                        {"kept_by_peer", s.peers},
+                        {"ratio", s.ratio()},
+                        {"kept_by_processor_time", s.ownByProcessor},
+                        {"kept_by_peer_by_processor_time", s.peersByProcessor},
+                        {"ratio_by_processor_time", s.ratioByProcessor()}});
+    return json;
+}
+
 Json toJson(const SceneResult& result) {
     Json json = {{"scene", result.scene}, {"width", result.width}, {"height", result.height}, {"blob_bytes", result.blobBytes}};
     if (result.bakeMs > 0) json["bake_ms"] = result.bakeMs;
-    json["start"] = {{"cold", toJson(result.cold)}, {"cached", toJson(result.cached)}};
+    json["start"] = {{"cold", toJson(result.starts.cold)}, {"second", toJson(result.starts.second)}};
+    json["load"] = toJson(result.load);
     for (const FrameResult& frame : result.frames)
         json["frames"][frame.integrator] = {{"ms_per_sample", toJson(frame.msPerSample)},
                                             {"mrays_per_s", toJson(frame.mraysPerSecond)}};
@@ -73,23 +109,32 @@ Json toJson(const EffectsResult& result) {
 }
 
 void print(const std::vector<RaySetResult>& results) {
-    std::printf("  %-9s %-21s %26s %22s %10s %10s\n", "rays", "tracer", "Mrays/s (lowest-highest)", "minirt over it",
-                "(cpu time)", "differing");
+    std::printf("  %-9s %-21s %26s %22s %10s %10s\n", "rays", "tracer", "Mrays/s (quartiles)", "minirt over it", "(cpu time)",
+                "differing");
     for (const RaySetResult& set : results)
         for (const ContenderResult& c : set.contenders) {
             std::printf("  %-9s %-21s %10.2f (%6.2f-%7.2f) %8.2f (%5.2f-%5.2f) %10.2f", set.rays.c_str(), c.name.c_str(),
-                        c.mraysPerSecond.median, c.mraysPerSecond.low, c.mraysPerSecond.high, c.ratio.median, c.ratio.low,
-                        c.ratio.high, c.processorRatio.median);
+                        c.mraysPerSecond.median, c.mraysPerSecond.lower, c.mraysPerSecond.upper, c.ratio.median, c.ratio.lower,
+                        c.ratio.upper, c.processorRatio.median);
             if (c.agreement) std::printf(" %10zu of %zu", c.agreement->differing(), c.agreement->rays);
             std::printf("\n");
         }
 }
 
 void print(const std::vector<TreeResult>& results) {
-    std::printf("  %-31s %26s %8s %10s %11s\n", "hierarchy", "Mtris/s (lowest-highest)", "SAH", "nodes", "references");
+    std::printf("  %-31s %26s %8s %10s %11s\n", "hierarchy", "Mtris/s (quartiles)", "SAH", "nodes", "references");
     for (const TreeResult& tree : results)
         std::printf("  %-31s %10.2f (%6.2f-%7.2f) %8.2f %10zu %11zu\n", tree.name.c_str(), tree.mtrianglesPerSecond.median,
-                    tree.mtrianglesPerSecond.low, tree.mtrianglesPerSecond.high, tree.sahCost, tree.nodes, tree.references);
+                    tree.mtrianglesPerSecond.lower, tree.mtrianglesPerSecond.upper, tree.sahCost, tree.nodes, tree.references);
+}
+
+void print(const std::vector<Scaling>& results) {
+    std::printf("Rays per second that are left on the larger mesh (by processor time):\n  %-9s %19s %15s %22s %15s\n", "rays",
+                "triangles", "minirt", "peer", "minirt over it");
+    for (const Scaling& s : results)
+        std::printf("  %-9s %8llu to %8llu %6.2f (%6.2f) %14s %6.2f (%6.2f) %6.2f (%6.2f)\n", s.rays.c_str(),
+                    static_cast<unsigned long long>(s.from), static_cast<unsigned long long>(s.to), s.own, s.ownByProcessor,
+                    s.peer.c_str(), s.peers, s.peersByProcessor, s.ratio(), s.ratioByProcessor());
 }
 
 void print(const SceneResult& result) {
@@ -97,22 +142,23 @@ void print(const SceneResult& result) {
                 static_cast<double>(result.blobBytes) * 1e-6);
     if (result.bakeMs > 0) std::printf(", baked in %.0f ms", result.bakeMs);
     std::printf("\n");
-    print("shaders compiled anew", result.cold);
-    print("shaders from the cache", result.cached);
+    print("first start", result.starts.cold);
+    print("second start", result.starts.second);
+    print(result.load);
     for (const FrameResult& frame : result.frames)
         std::printf("  %-9s %10.2f ms a sample (%.2f-%.2f), %.2f Mrays/s\n", frame.integrator.c_str(), frame.msPerSample.median,
-                    frame.msPerSample.low, frame.msPerSample.high, frame.mraysPerSecond.median);
+                    frame.msPerSample.lower, frame.msPerSample.upper, frame.mraysPerSecond.median);
 }
 
 void print(const std::vector<EffectsResult>& results) {
     std::printf(
-        "| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (lowest to highest) "
+        "| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (quartiles) "
         "|\n|---|---|---|---|---|\n");
     for (const EffectsResult& e : results)
         std::printf("| `%s` %s | %.0f of %.0f | %.0f of %.0f | %.2f of %.2f | %.2f (%.2f to %.2f) |\n", e.scene.c_str(),
                     e.integrator.c_str(), static_cast<double>(e.pruned.spirvBytes) * 1e-3,
                     static_cast<double>(e.whole.spirvBytes) * 1e-3, e.pruned.firstDispatchMs, e.whole.firstDispatchMs,
-                    e.pruned.msPerSample.median, e.whole.msPerSample.median, e.speedup.median, e.speedup.low, e.speedup.high);
+                    e.pruned.msPerSample.median, e.whole.msPerSample.median, e.speedup.median, e.speedup.lower, e.speedup.upper);
 }
 
 }  // namespace bench

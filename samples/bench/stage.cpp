@@ -5,8 +5,6 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "timing.hpp"
-
 namespace bench {
 
 namespace fs = std::filesystem;
@@ -73,17 +71,6 @@ double Stage::pictureMs(minirt_integrator integrator, uint32_t samples) {
     return device().is_cpu ? stats.wall_ms : stats.gpu_ms;
 }
 
-minirt_stats Stage::firstStep() {
-    minirt_render_desc desc = {};
-    minirt_job* job = nullptr;
-    require(minirt_begin(scene_, &desc, &job));
-    require(minirt_step(job, nullptr));
-    minirt_stats stats = {};
-    require(minirt_get_stats(job, &stats));
-    minirt_end(job);
-    return stats;
-}
-
 void Stage::require(minirt_result result) const {
     if (result) throw std::runtime_error(blob_ + ": " + minirt_last_message(context_.get()));
 }
@@ -92,20 +79,6 @@ void Stage::require(minirt_result result) const {
 void useShaderCache(const fs::path& folder) {
     for (const char* variable : {"MESA_SHADER_CACHE_DIR", "__GL_SHADER_DISK_CACHE_PATH"}) setenv(variable, folder.c_str(), 1);
     setenv("__GL_SHADER_DISK_CACHE", "1", 1);
-}
-
-StartResult start(const std::string& device, const std::string& blob) {
-    StartResult result;
-    const double begin = nowMs();
-    Stage stage(device, blob);
-    result.context = nowMs() - begin;
-    stage.load();
-    const minirt_stats stats = stage.firstStep();
-    result.firstPixel = nowMs() - begin;
-    result.load = stats.load_ms;
-    result.upload = stats.upload_ms;
-    result.pipeline = stats.pipeline_ms;
-    return result;
 }
 
 }  // namespace bench

@@ -1,4 +1,4 @@
-// A scene on a device, from nothing: what a process that shows it goes through.
+// A scene on a device.
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -30,6 +30,7 @@ public:
     void load();
     minirt_scene_desc scene() const;
     minirt_device_info device() const;
+    minirt_context* context() const { return context_.get(); }
 
     /// Width and height of later pictures; by default the scene's.
     void resize(uint32_t width, uint32_t height);
@@ -39,9 +40,6 @@ public:
 
     /// Milliseconds of the picture: the device's, but on a CPU device those that pass.
     double pictureMs(minirt_integrator integrator, uint32_t samples);
-
-    /// Begins a picture and takes its first step.
-    minirt_stats firstStep();
 
 private:
     struct Destroy {
@@ -58,13 +56,5 @@ private:
 
 /// Drivers keep compiled shaders there from the next device on that is opened.
 void useShaderCache(const std::filesystem::path& folder);
-
-/// Milliseconds of a process that shows the scene. The pipeline's time holds the first dispatch, at which some drivers compile.
-struct StartResult {
-    double context = 0, load = 0, upload = 0, pipeline = 0;
-    double firstPixel = 0;  // from nothing to a first sample of the first pixels
-};
-
-StartResult start(const std::string& device, const std::string& blob);
 
 }  // namespace bench

@@ -1,6 +1,5 @@
 #include "timing.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -15,12 +14,6 @@ double processorMs() {
 
 double nowMs() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-Spread spreadOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const size_t n = values.size();
-    return {0.5 * (values[(n - 1) / 2] + values[n / 2]), values.front(), values.back()};
 }
 
 std::vector<Times> takeTurns(const std::vector<Contender>& contenders, int rounds) {

@@ -4,16 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "../common/spread.hpp"
+
 namespace bench {
 
 double nowMs();
-
-struct Spread {
-    double median = 0, low = 0, high = 0;
-};
-
-/// The mean of the two middle values where their number is even. `values` must not be empty.
-Spread spreadOf(std::vector<double> values);
 
 /// One of several that do the same work: `run` does it once and returns the milliseconds.
 struct Contender {

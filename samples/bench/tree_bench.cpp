@@ -21,7 +21,7 @@ std::vector<TreeResult> benchTrees(const Mesh& mesh, int rounds) {
     };
     add("minirt fast", [&] { return minirtc::buildBvh(mesh.geometry, 0, minirtc::BvhQuality::fast); });
     add("minirt high", [&] { return minirtc::buildBvh(mesh.geometry, 0, minirtc::BvhQuality::high); });
-    if (EmbreeRays::available()) {
+    if (EmbreeScene::available()) {
         add("Embree low", [&] { return embreeTree(mesh.triangles, EmbreeQuality::low); });
         add("Embree medium", [&] { return embreeTree(mesh.triangles, EmbreeQuality::medium); });
         add("Embree high", [&] { return embreeTree(mesh.triangles, EmbreeQuality::high); });

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "../common/spread.hpp"
 #include "error_metrics.hpp"
 #include "progress.hpp"
 #include "rounds.hpp"
 #include "scenes.hpp"
-#include "spread.hpp"
 
 namespace cost {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "spread.hpp"
+#include "../common/spread.hpp"
 
 namespace cost {
 

@@ -2,9 +2,8 @@
 
 /// The least float above x, for finite x.
 float nextUp(float x) {
-    if (x == real(0)) return uintBitsToFloat(1u);
     uint bits = floatBitsToUint(x);
-    return uintBitsToFloat(x > real(0) ? bits + 1u : bits - 1u);
+    return uintBitsToFloat(x == real(0) ? 1u : x > real(0) ? bits + 1u : bits - 1u);
 }
 
 /// The greatest float below x, for finite x.

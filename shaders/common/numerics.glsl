@@ -17,9 +17,9 @@ vec3 unitVector(vec3 v) {
 
 /// `value` moved to the next representable number in the direction of the sign of `direction`; unchanged where that is 0.
 real roundAway(real value, real direction) {
-    if (direction > real(0)) return nextUp(value);
-    if (direction < real(0)) return nextDown(value);
-    return value;
+    bool up = direction > real(0);
+    real next = nextUp(up ? value : -value);
+    return direction == real(0) ? value : up ? next : -next;
 }
 
 /// A point on a surface, known up to rounding.

@@ -9,9 +9,7 @@ struct Shear {
 
 /// `axis` last, the cyclic order kept.
 vec3 permute(vec3 v, int axis) {
-    bool x = axis == 0;
-    bool y = axis == 1;
-    return vec3(x ? v.y : y ? v.z : v.x, x ? v.z : y ? v.x : v.y, x ? v.x : y ? v.y : v.z);
+    return axis == 0 ? vec3(v.y, v.z, v.x) : axis == 1 ? vec3(v.z, v.x, v.y) : v;
 }
 
 Shear shearOf(vec3 direction) {

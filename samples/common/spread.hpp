@@ -2,8 +2,6 @@
 #pragma once
 #include <vector>
 
-namespace cost {
-
 struct Spread {
     double median = 0;
     double lower = 0;  // quartiles
@@ -15,5 +13,3 @@ Spread spreadOf(std::vector<double> values);
 
 /// True where the values scatter around `value`: it lies between the quartiles.
 bool covers(const Spread& spread, double value);
-
-}  // namespace cost

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace cost {
 namespace {
 
 double quantile(const std::vector<double>& sorted, double q) {
@@ -23,5 +22,3 @@ Spread spreadOf(std::vector<double> values) {
 bool covers(const Spread& spread, double value) {
     return spread.lower <= value && value <= spread.upper;
 }
-
-}  // namespace cost
