@@ -5,6 +5,7 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
+#include <exception>
 #include <initializer_list>
 #include <memory>
 #include <mutex>
@@ -121,6 +122,18 @@ std::vector<uint32_t> optimise(const std::string& name, const std::vector<uint32
     return optimised;
 }
 
+Kernel compileSource(const KernelJob& job, const std::string& source) {
+    Compiled compiled = compileGlsl(job.name, source);
+    Kernel kernel;
+    kernel.name = job.name;
+    kernel.glsl = source;
+    kernel.bindings = compiled.bindings;
+    kernel.spirv = optimise(job.name, compiled.spirv);
+    // One a level of depth, and a dispersed ray's further channels.
+    kernel.waits = job.name == "whitted" && job.effects.splits() ? job.effects.channels() : 0;
+    return kernel;
+}
+
 }  // namespace
 
 std::string composeKernel(const std::string& name, const EffectSet& effects) {
@@ -153,15 +166,32 @@ std::vector<std::string> kernelsOf(Integrator integrator, const EffectSet& effec
 }
 
 Kernel compileKernel(const std::string& name, const EffectSet& effects) {
-    Kernel kernel;
-    kernel.name = name;
-    kernel.glsl = composeKernel(name, effects);
-    Compiled compiled = compileGlsl(name, kernel.glsl);
-    kernel.bindings = compiled.bindings;
-    kernel.spirv = optimise(name, compiled.spirv);
-    kernel.waits = name == "whitted" && effects.splits() ? effects.channels()
-                                                         : 0;  // one a level of depth, and a dispersed ray's further channels
-    return kernel;
+    return compileSource({name, effects}, composeKernel(name, effects));
+}
+
+std::vector<Kernel> KernelCompiler::compile(const std::vector<KernelJob>& jobs) {
+    std::vector<std::string> sources;
+    std::vector<std::pair<const KernelJob*, std::map<std::string, Kernel>::iterator>> fresh;
+    for (const KernelJob& job : jobs) {
+        sources.push_back(composeKernel(job.name, job.effects));
+        const auto [slot, isNew] = compiled_.try_emplace(sources.back());
+        if (isNew) fresh.push_back({&job, slot});
+    }
+    std::vector<std::exception_ptr> failures(fresh.size());
+    pool_.parallelFor(fresh.size(), [&](size_t i) {
+        try {
+            fresh[i].second->second = compileSource(*fresh[i].first, fresh[i].second->first);
+        } catch (...) {
+            failures[i] = std::current_exception();
+        }
+    });
+    for (size_t i = 0; i < fresh.size(); ++i)
+        if (failures[i]) compiled_.erase(fresh[i].second);
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+    std::vector<Kernel> kernels;
+    for (const std::string& source : sources) kernels.push_back(compiled_.at(source));
+    return kernels;
 }
 
 }  // namespace minirtc

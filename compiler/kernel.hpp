@@ -1,10 +1,12 @@
 // From a set of effects to SPIR-V.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "effects.hpp"
+#include "parallel.hpp"
 
 namespace minirtc {
 
@@ -24,5 +26,24 @@ std::vector<std::string> kernelsOf(Integrator integrator, const EffectSet& effec
 
 /// Compiles (glslang), optimises and validates (SPIRV-Tools). A failure is a defect of the project: throws Error with the log.
 Kernel compileKernel(const std::string& name, const EffectSet& effects);
+
+struct KernelJob {
+    std::string name;
+    EffectSet effects;
+};
+
+/// Compiles kernels side by side, and what it has compiled before not again.
+class KernelCompiler {
+public:
+    /// `threads`: 0 for all cores. The kernels do not depend on it.
+    explicit KernelCompiler(unsigned threads) : pool_(threads) {}
+
+    /// In the order of the jobs. Throws as compileKernel does.
+    std::vector<Kernel> compile(const std::vector<KernelJob>& jobs);
+
+private:
+    ThreadPool pool_;
+    std::map<std::string, Kernel> compiled_;  // by their source
+};
 
 }  // namespace minirtc

@@ -20,7 +20,7 @@ size_t bake(const fs::path& scene, const fs::path& blob, bool all) {
     options.output = blob.string();
     options.statsFile = stats.string();
     options.onlyDefault = true;
-    options.allEffects = all;
+    options.choices.allEffects = all;
     options.quiet = true;
     minirtc::bake(options);
     std::ifstream file(stats);

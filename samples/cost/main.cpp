@@ -2,6 +2,7 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include "../common/command_line.hpp"
 #include "bake_levers.hpp"
@@ -68,16 +69,18 @@ cost::Report run(const Options& options) {
     report.baked = endsWith(options.scene, ".json");
     cost::StudyOptions study = options.study;
     if (!options.size.empty()) parseSize(options.size, study.width, study.height);
+    cost::Progress progress;
     Device device(options.device);
     report.device = device.info();
-    cost::Progress progress;
-    cost::Baker baker(options.scene, report.baked && cost::asksForWhitted(options.scene));
-    const std::vector<cost::Lever> baked = report.baked ? cost::bakeLevers(options.scene) : std::vector<cost::Lever>();
-    cost::Scenes scenes(device, baked, [&](const cost::Configuration& configuration) {
-        return report.baked ? baker.blobOf(baked, configuration) : options.scene;
-    });
-    const cost::BlobFacts facts =
-        cost::readBlobFacts(report.baked ? baker.blobOf(baked, initialConfiguration(baked)) : options.scene);
+    std::unique_ptr<cost::Baker> baker;
+    if (report.baked) baker = std::make_unique<cost::Baker>(options.scene);
+    const std::vector<cost::Lever> baked = report.baked ? baker->levers() : std::vector<cost::Lever>();
+    const auto blobsOf = [&](const std::vector<cost::Lever>& levers, const std::vector<cost::Configuration>& configurations) {
+        return report.baked ? baker->blobsOf(levers, configurations)
+                            : std::vector<std::string>(configurations.size(), options.scene);
+    };
+    cost::Scenes scenes(device, baked, blobsOf);
+    const cost::BlobFacts facts = cost::readBlobFacts(blobsOf(baked, {initialConfiguration(baked)}).front());
     cost::study(scenes, facts, report.device.is_cpu != 0, study, progress, report);
     if (options.hardCases) report.hardCases = cost::runHardCases(device, progress);
     return report;

@@ -11,7 +11,7 @@ namespace {
 
 /// Of one sample at the full size, once the device is warm.
 double fullSizeMs(Scenes& scenes, const Configuration& configuration, uint32_t width, uint32_t height, Progress& progress) {
-    return Measurer(scenes, width, height, progress).warmUp(configuration);
+    return Measurer(scenes, width, height, progress).warmUp(configuration, 2);
 }
 
 std::vector<Measurement> measureSmall(Scenes& scenes, uint32_t width, uint32_t height, double budgetMs, Progress& progress) {
@@ -38,7 +38,10 @@ ProbedBudget probeBudget(Device& device, const std::string& blob, uint32_t width
     constexpr int kAttempts = 4;
     constexpr double kMargin = 0.95;  // no two pictures take the same time
     const BlobFacts facts = readBlobFacts(blob);
-    Scenes scenes(device, renderLevers(facts, device.info().is_cpu != 0, kSamples), [&](const Configuration&) { return blob; });
+    Scenes scenes(device, renderLevers(facts, device.info().is_cpu != 0, kSamples),
+                  [&](const std::vector<Lever>&, const std::vector<Configuration>& configurations) {
+                      return std::vector<std::string>(configurations.size(), blob);
+                  });
     Progress progress;
     const std::vector<Measurement> small = measureSmall(scenes, width, height, budgetMs, progress);
     // Large pictures cost more or less for a pixel than small ones: what the first choice really takes corrects the next.

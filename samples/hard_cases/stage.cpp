@@ -60,7 +60,7 @@ Picture Stage::render(const Shot& shot) const {
     minirtc::BakeOptions options;
     options.scene = (folder_ / "scene.json").string();
     options.output = (folder_ / "scene.mrt").string();
-    options.levers = levers_;
+    options.choices.levers = levers_;
     options.quiet = true;
     minirtc::Diagnostics warnings;  // that a case is hard
     options.diagnostics = &warnings;
