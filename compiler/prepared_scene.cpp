@@ -59,6 +59,14 @@ std::vector<KernelJob> kernelJobs(const Variant& variant, const std::vector<Inte
     return jobs;
 }
 
+std::vector<uint32_t> contentOf(const Variant& variant, const std::vector<Kernel>& kernels) {
+    std::vector<uint32_t> content;
+    for (const EffectChoice& choice : variant.effects.choices) content.push_back(choice.included ? 1 : 0);
+    content.push_back(variant.effects.volumeCapacity);
+    for (const Kernel& kernel : kernels) content.insert(content.end(), kernel.spirv.begin(), kernel.spirv.end());
+    return content;
+}
+
 std::vector<uint8_t> finishBlob(const PreparedScene& prepared, const Variant& variant, const std::vector<Kernel>& kernels) {
     const auto& [scene, geometry, bvh, nodes, volumes] = prepared;
     std::vector<uint8_t> blob = assembleBlob({scene, geometry, bvh, nodes, volumes, variant.effects, kernels});

@@ -46,6 +46,9 @@ Variant chooseVariant(const PreparedScene& prepared, const std::vector<Integrato
 /// The kernels of these integrators.
 std::vector<KernelJob> kernelJobs(const Variant& variant, const std::vector<Integrator>& integrators);
 
+/// What of a blob a variant decides: its effects, which say what data it has, and its kernels. Blobs of a scene in which it is equal render alike.
+std::vector<uint32_t> contentOf(const Variant& variant, const std::vector<Kernel>& kernels);
+
 /// The blob, which has passed the runtime's own checks. Throws Error.
 std::vector<uint8_t> finishBlob(const PreparedScene& prepared, const Variant& variant, const std::vector<Kernel>& kernels);
 

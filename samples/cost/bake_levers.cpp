@@ -55,15 +55,6 @@ Lever leverOf(const minirtc::Lever& source, const std::string& own, const minirt
     return lever;
 }
 
-/// What levers change of a blob: its effects, which say what data it has, and its kernels.
-std::vector<uint32_t> contentOf(const minirtc::Variant& variant, const std::vector<minirtc::Kernel>& kernels) {
-    std::vector<uint32_t> content;
-    for (const minirtc::EffectChoice& choice : variant.effects.choices) content.push_back(choice.included ? 1 : 0);
-    content.push_back(variant.effects.volumeCapacity);
-    for (const minirtc::Kernel& kernel : kernels) content.insert(content.end(), kernel.spirv.begin(), kernel.spirv.end());
-    return content;
-}
-
 minirtc::Integrator integratorOf(minirt_integrator integrator) {
     return static_cast<minirtc::Integrator>(static_cast<uint32_t>(integrator) - MINIRT_INTEGRATOR_WHITTED);
 }
@@ -135,7 +126,7 @@ void Baker::bake(const std::vector<Wish>& wishes) {
     compiler_.compile(jobs);
     for (size_t i = 0; i < wishes.size(); ++i) {
         const std::vector<minirtc::Kernel> kernels = compiler_.compile(minirtc::kernelJobs(variants[i], wishes[i].integrators));
-        std::string& content = contents_[contentOf(variants[i], kernels)];
+        std::string& content = contents_[minirtc::contentOf(variants[i], kernels)];
         if (content.empty()) {
             content = (folder_ / (std::to_string(contents_.size()) + ".mrt")).string();
             const std::vector<uint8_t> blob = minirtc::finishBlob(prepared_, variants[i], kernels);

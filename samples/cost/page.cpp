@@ -246,9 +246,12 @@ std::string hardCasesSection(const Report& report) {
                         cell(std::to_string(row.held) + " of " + std::to_string(row.all)) + cell(escaped(row.settings)) +
                             element("td", "class=\"words\"", broken));
     }
+    const HardCases& defaults = report.hardCases.front();
+    const std::string held = std::to_string(defaults.held) + " of " + std::to_string(defaults.all);
     const std::string text =
-        "Small scenes in which rounding shows, each with a figure and its bound: what this scene may not show, another one will.";
-    return element("h2", "", "Hard cases") + element("p", "", text) +
+        "of the hard cases hold with the defaults: small scenes in which rounding shows, each with a figure and its bound. What this "
+        "scene may not show, another one will.";
+    return element("h2", "", "Hard cases") + element("p", "", "<b class=\"number\">" + held + "</b> " + text) +
            element("div", "class=\"scroll\" tabindex=\"0\"",
                    element("table", "",
                            element("thead", "", "<tr><th>held</th><th>Settings</th><th>broken</th></tr>") +
@@ -290,6 +293,9 @@ std::string methodSection(const Report& report) {
         text += element("p", "",
                         "Measured with " + std::to_string(report.samples()) + " samples a pixel instead of the scene's " +
                             std::to_string(report.sceneSamples) + ", to end in time.");
+    text += element("p", "",
+                    "Of " + number(report.seconds) + " s " + number(report.prepareSeconds) + " s went into baking and into the pipelines of " +
+                        std::to_string(report.pipelines) + " variants of the scene, before the first picture.");
     if (!report.baked)
         text += element("p", "", "From a blob only levers of the rendering can move; those of the bake need the scene file.");
     return element("h2", "", "How this was measured") + text;

@@ -7,11 +7,6 @@
 namespace cost {
 namespace {
 
-/// Each takes a core while it makes pipelines, and memory for its scenes.
-size_t mostDevices() {
-    return std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
-}
-
 /// A picture of one pixel, which brings the pipelines with it.
 void makePipelines(const std::string& blob, minirt_integrator integrator, Device& device, LoadedScene& loaded) {
     minirt_render_desc desc = {};
@@ -33,6 +28,10 @@ void makePipelines(const std::string& blob, minirt_integrator integrator, Device
 }
 
 }  // namespace
+
+size_t mostDevices() {
+    return std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
+}
 
 Scenes::~Scenes() {
     for (const auto& [key, loaded] : loaded_) minirt_unload(loaded.scene);

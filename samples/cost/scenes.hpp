@@ -10,6 +10,9 @@
 
 namespace cost {
 
+/// How many devices make pipelines side by side: each takes a core, and memory for its scenes.
+size_t mostDevices();
+
 /// A blob on a device for one integrator: pipelines stay when others render in between.
 struct LoadedScene {
     const Device* device = nullptr;

@@ -104,10 +104,10 @@ uint32_t chooseWork(Scenes& scenes, const BlobFacts& facts, const StudyOptions& 
 }
 
 /// Measured beside the scene's own settings again: what these took then and now tells how the device's speed has changed.
-void addCombinations(Measurer& measurer, const StudyOptions& options, const Progress& progress,
-                     double secondsEach, Report& report) {
-    // More samples come with some of them.
-    const double each = secondsEach + report.measurements.front().ms.median * options.repeats * 1.5 / 1000;
+void addCombinations(Measurer& measurer, const StudyOptions& options, const Progress& progress, Report& report) {
+    // More samples come with some of them, and each with a blob of its own.
+    const double each = report.prepareSeconds / static_cast<double>(report.pipelines) +
+                        report.measurements.front().ms.median * options.repeats * 1.5 / 1000;
     const auto fitting = static_cast<size_t>(std::max((options.seconds - progress.seconds()) / each, 0.0));
     std::vector<Configuration> configurations =
         combinations(report.levers, report.measurements, std::min(options.combinations, fitting));
@@ -154,7 +154,8 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.sceneSamples = facts.scene.samples;
     scenes.setLevers(allLevers(scenes.levers(), facts, cpuDevice, 4));
     prepareSingles(scenes, progress);
-    const double secondsEach = progress.seconds() / static_cast<double>(scenes.count());
+    report.prepareSeconds = progress.seconds();
+    report.pipelines = scenes.count();
     const std::vector<Lever> baked(scenes.levers().begin(), scenes.levers().begin() + static_cast<ptrdiff_t>(bakedLevers));
     const uint32_t samples = chooseWork(scenes, facts, options, progress, report);
     scenes.setLevers(allLevers(baked, facts, cpuDevice, samples));
@@ -167,7 +168,7 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.measurements =
         measurer.measure(oneAtATime(report.levers), options.repeats, start + left * (kReferenceShare + kSinglesShare));
     report.singles = report.measurements.size();
-    addCombinations(measurer, options, progress, secondsEach, report);
+    addCombinations(measurer, options, progress, report);
 
     report.reference = measurer.reference();
     std::vector<Tradeoff> points;

@@ -11,7 +11,7 @@ struct HardCase {
     std::string what;
     std::string unit;
     double bound;
-    std::function<double(const Stage&)> figure;
+    std::function<double(Stage&)> figure;
 };
 
 std::vector<HardCase> intersectionCases();

@@ -8,7 +8,7 @@ namespace hard_cases {
 namespace {
 
 /// A black wall before white, or before a white square of `floor` metres: percent of the pixels that see through.
-double seenThrough(const Stage& stage, const View& view, const std::string& obj, const Pose& pose, double floor = 0) {
+double seenThrough(Stage& stage, const View& view, const std::string& obj, const Pose& pose, double floor = 0) {
     stage.write("wall.obj", obj);
     Shot shot;
     shot.view = view;
@@ -24,7 +24,7 @@ double seenThrough(const Stage& stage, const View& view, const std::string& obj,
 }
 
 /// Triangles with legs of `edge` metres, at `distance` from the middle of the scene.
-double missingFaces(const Stage& stage, double edge, double distance) {
+double missingFaces(Stage& stage, double edge, double distance) {
     const Pose pose = tilted(distance * dvec3(0.6, -0.64, 0.48));
     const Grid grid{44, 44, edge, edge, 0, 0};
     return seenThrough(stage, across(pose, 50 * edge, 38 * edge, 64), wall(pose, grid), pose);
@@ -33,7 +33,7 @@ double missingFaces(const Stage& stage, double edge, double distance) {
 constexpr uint32_t kAimed = 128;
 
 /// Every ray goes through a point of the grid: (x, y) cells off its vertices.
-double aimedRays(const Stage& stage, double x, double y, double distance) {
+double aimedRays(Stage& stage, double x, double y, double distance) {
     const Pose pose = tilted(distance * dvec3(0.6, -0.64, 0.48));
     constexpr double kCell = 0.1;
     // An odd number of cells has no vertex in the middle, nor has an even number of pixels a centre there.
@@ -41,27 +41,27 @@ double aimedRays(const Stage& stage, double x, double y, double distance) {
     return seenThrough(stage, across(pose, kAimed * kCell, kAimed * kCell, kAimed), wall(pose, grid), pose);
 }
 
-double tinyAndHuge(const Stage& stage) {
+double tinyAndHuge(Stage& stage) {
     const Pose pose = tilted(dvec3(0));
     const Grid grid{44, 44, 0.002, 0.002, 0, 0};
     return seenThrough(stage, across(pose, 0.1, 0.08, 64), wall(pose, grid), pose, 1e4);
 }
 
-double needles(const Stage& stage) {
+double needles(Stage& stage) {
     const Pose pose = tilted(dvec3(0));
     const Grid grid{10000, 1, 1e-4, 1, 0, 0};
     return seenThrough(stage, across(pose, 1, 0.9, 64), wall(pose, grid), pose);
 }
 
 /// Rays in the planes in which the boxes of the hierarchy end: the middle column and row of an odd picture.
-double raysInPlanes(const Stage& stage) {
+double raysInPlanes(Stage& stage) {
     const Pose pose;
     const Grid grid{16, 16, 0.25, 0.25, 0, 0};
     return seenThrough(stage, across(pose, 4, 3.5, 129), wall(pose, grid), pose);
 }
 
 /// Triangles that double in size: no grid of boxes suits all. White squares over one another, the camera above the smallest.
-double doublingSizes(const Stage& stage) {
+double doublingSizes(Stage& stage) {
     constexpr int kLevels = 48;
     Shot shot;
     shot.view = {{0.3, 0.2, 1}, {0.3, 0.2, 0}, 90, 64};
@@ -81,17 +81,17 @@ double doublingSizes(const Stage& stage) {
 std::vector<HardCase> intersectionCases() {
     const std::string through = "% of rays that go through a wall";
     return {
-        {"small faces", "triangles with legs of 2 cm", through, 0, [](const Stage& s) { return missingFaces(s, 0.02, 0); }},
-        {"smaller faces", "triangles with legs of 5 mm", through, 0, [](const Stage& s) { return missingFaces(s, 0.005, 0); }},
+        {"small faces", "triangles with legs of 2 cm", through, 0, [](Stage& s) { return missingFaces(s, 0.02, 0); }},
+        {"smaller faces", "triangles with legs of 5 mm", through, 0, [](Stage& s) { return missingFaces(s, 0.005, 0); }},
         {"small and far faces", "triangles with legs of 5 cm, 1 km from the middle of the scene", through, 0,
-         [](const Stage& s) { return missingFaces(s, 0.05, 1e3); }},
-        {"vertices", "rays aimed at shared vertices", through, 0, [](const Stage& s) { return aimedRays(s, 0, 0, 0); }},
-        {"edges", "rays aimed at shared edges", through, 0, [](const Stage& s) { return aimedRays(s, 0, 0.3, 0); }},
-        {"diagonals", "rays aimed at shared diagonals", through, 0, [](const Stage& s) { return aimedRays(s, 0.3, 0.3, 0); }},
+         [](Stage& s) { return missingFaces(s, 0.05, 1e3); }},
+        {"vertices", "rays aimed at shared vertices", through, 0, [](Stage& s) { return aimedRays(s, 0, 0, 0); }},
+        {"edges", "rays aimed at shared edges", through, 0, [](Stage& s) { return aimedRays(s, 0, 0.3, 0); }},
+        {"diagonals", "rays aimed at shared diagonals", through, 0, [](Stage& s) { return aimedRays(s, 0.3, 0.3, 0); }},
         {"vertices far away", "rays aimed at shared vertices, 1 km from the middle of the scene", through, 0,
-         [](const Stage& s) { return aimedRays(s, 0, 0, 1e3); }},
+         [](Stage& s) { return aimedRays(s, 0, 0, 1e3); }},
         {"edges far away", "rays aimed at shared edges, 1 km from the middle of the scene", through, 0,
-         [](const Stage& s) { return aimedRays(s, 0, 0.3, 1e3); }},
+         [](Stage& s) { return aimedRays(s, 0, 0.3, 1e3); }},
         {"tiny and huge", "triangles with legs of 2 mm before a floor of 10 km", through, 0, tinyAndHuge},
         {"needles", "triangles of 1 m by 0.1 mm", through, 0, needles},
         {"rays in planes", "rays along an axis in the planes that bound the boxes of the hierarchy", through, 0, raysInPlanes},

@@ -20,7 +20,7 @@ double chord(const View& view, uint32_t x, uint32_t y, double radius) {
 }
 
 /// A ball of index 1 that takes half of the light in 1 m, before white: Beer's and Lambert's law along each ray.
-double absorption(const Stage& stage) {
+double absorption(Stage& stage) {
     Shot shot;
     shot.view = {{0, 0, 5}, {0, 0, 0}, 30, 64};
     shot.background = 1;
@@ -36,7 +36,7 @@ double absorption(const Stage& stage) {
 }
 
 /// Balls of other glass within a ball that displaces them: their surfaces are hidden, and the picture that of the ball alone.
-double hiddenSurfaces(const Stage& stage) {
+double hiddenSurfaces(Stage& stage) {
     Shot shot;
     shot.view = {{0, 1, 5}, {0, 0, 0}, 30, 64};
     shot.background = 0.2;
@@ -84,7 +84,7 @@ struct Wedge {
 
 /// The edge of a light 20 m behind a wedge, by the index of each channel (KHR_materials_dispersion): the largest angle from it at which a channel is on
 /// the wrong side.
-double dispersion(const Stage& stage) {
+double dispersion(Stage& stage) {
     constexpr double kIndex = 1.7;
     constexpr double kHalfSpread = (kIndex - 1) * 0.025;
     constexpr double kPlane = -20;
