@@ -7,7 +7,7 @@
 namespace cost {
 namespace {
 
-/// What a setting is called in a sentence; the compiler's own text explains it, which takes longer.
+/// The compiler's own text explains a setting, which takes longer.
 const std::map<std::string, std::string>& words() {
     static const std::map<std::string, std::string> table = {
         {"intersection=moller_trumbore_epsilon", "Möller and Trumbore's intersection with an epsilon"},
@@ -47,8 +47,7 @@ Lever leverOf(const minirtc::Lever& source, const std::string& own, const minirt
     Lever lever{LeverKind::baked, source.name, titleOf(source.name), {}, 0, 0, source.name == "normals", ""};
     for (const minirtc::LeverSetting& setting : source.settings) {
         if (setting.name == own) lever.initial = lever.settings.size();
-        const auto found = words().find(source.name + "=" + setting.name);
-        lever.settings.push_back({setting.name, found == words().end() ? source.name + " " + setting.name : found->second, 0});
+        lever.settings.push_back({setting.name, wordsOf(source.name, setting.name), 0});
     }
     lever.best = applicability.applies ? lever.settings.size() - 1 : lever.initial;
     if (!applicability.applies) lever.idle = applicability.reason;
@@ -60,6 +59,11 @@ minirtc::Integrator integratorOf(minirt_integrator integrator) {
 }
 
 }  // namespace
+
+std::string wordsOf(const std::string& lever, const std::string& setting) {
+    const auto found = words().find(lever + "=" + setting);
+    return found == words().end() ? lever + " " + setting : found->second;
+}
 
 Baker::Baker(const std::string& sceneFile) {
     minirtc::Diagnostics diagnostics;

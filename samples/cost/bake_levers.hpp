@@ -11,6 +11,9 @@
 
 namespace cost {
 
+/// What a setting of a lever of the bake is called in a sentence, such as "exact Fresnel".
+std::string wordsOf(const std::string& lever, const std::string& setting);
+
 /// A scene file's levers and blobs, in a folder of its own that goes away with the object. What no lever changes is made once.
 class Baker {
 public:

@@ -3,6 +3,7 @@
 #include <hard_cases.hpp>
 #include <levers.hpp>
 
+#include "bake_levers.hpp"
 #include "scenes.hpp"
 
 namespace cost {
@@ -21,13 +22,13 @@ HardCases summary(const std::string& settings, const std::vector<hard_cases::Har
 
 /// The defaults, then each other setting of a lever of the bake alone, then miniRTRender's.
 std::vector<std::pair<std::string, minirtc::LeverSettings>> allSettings() {
-    std::vector<std::pair<std::string, minirtc::LeverSettings>> all = {{"all at their defaults", {}}};
+    std::vector<std::pair<std::string, minirtc::LeverSettings>> all = {{"all levers at their defaults", {}}};
     for (const minirtc::Lever& lever : minirtc::levers()) {
         if (lever.when != minirtc::LeverTime::bake) continue;
         for (const minirtc::LeverSetting& setting : lever.settings)
-            if (setting.name != lever.byDefault) all.push_back({lever.name + " " + setting.name, {{lever.name, setting.name}}});
+            if (setting.name != lever.byDefault) all.push_back({wordsOf(lever.name, setting.name), {{lever.name, setting.name}}});
     }
-    all.push_back({"those of miniRTRender", hard_cases::seedSettings()});
+    all.push_back({"the settings of miniRTRender", hard_cases::seedSettings()});
     return all;
 }
 

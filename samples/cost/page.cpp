@@ -241,21 +241,18 @@ std::string hardCasesSection(const Report& report) {
     std::string rows;
     for (const HardCases& row : report.hardCases) {
         std::string broken;
-        for (const std::string& one : row.broken) broken += (broken.empty() ? "" : "<br>") + escaped(one);
-        rows += element("tr", "",
-                        cell(std::to_string(row.held) + " of " + std::to_string(row.all)) + cell(escaped(row.settings)) +
-                            element("td", "class=\"words\"", broken));
+        for (const std::string& one : row.broken) broken += element("li", "", escaped(one));
+        const std::string line = "<b class=\"held\">" + std::to_string(row.held) + "</b>" + escaped(row.settings);
+        rows += broken.empty() ? element("p", "", line)
+                               : element("details", "", element("summary", "", line) + element("ul", "", broken));
     }
     const HardCases& defaults = report.hardCases.front();
     const std::string held = std::to_string(defaults.held) + " of " + std::to_string(defaults.all);
     const std::string text =
-        "of the hard cases hold with the defaults: small scenes in which rounding shows, each with a figure and its bound. What this "
-        "scene may not show, another one will.";
-    return element("h2", "", "Hard cases") + element("p", "", "<b class=\"number\">" + held + "</b> " + text) +
-           element("div", "class=\"scroll\" tabindex=\"0\"",
-                   element("table", "",
-                           element("thead", "", "<tr><th>held</th><th>Settings</th><th>broken</th></tr>") +
-                               element("tbody", "", rows)));
+        " are held by the default settings: small scenes in which rounding shows, each with a figure and its bound. What this scene "
+        "may not show, another one will. Below, how many each setting alone holds, and which it breaks.";
+    return element("h2", "", "Hard cases") + element("p", "", "<b>" + held + "</b>" + text) +
+           element("div", "class=\"card cases\"", rows);
 }
 
 std::string methodSection(const Report& report) {

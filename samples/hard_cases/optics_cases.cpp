@@ -174,7 +174,7 @@ std::vector<HardCase> opticsCases() {
         {"reflectance from inside", "a face of glass of index 1.5 seen from within", "error", 1e-5, reflectanceInside},
         {"critical angle", "rays in glass of index 1.5 at the critical angle", wrongSide, 8.8e-7,
          [](Stage& s) { return criticalAngle(s, 1.5); }},
-        {"critical angle of diamond", "the same for index 2.417", wrongSide, 3.1e-6,
+        {"critical angle of diamond", "rays in diamond, of index 2.417, at the critical angle", wrongSide, 3.1e-6,
          [](Stage& s) { return criticalAngle(s, 2.417); }},
         {"index 1", "a ball of index 1 before a floor, against no ball", "% of pixels that differ", 0, indexOne},
         {"extreme indices", "glass of index 0.25, 1.0001 and 4 in a white room", "radiance over 1, and NaNs", 1e-5, extremes},

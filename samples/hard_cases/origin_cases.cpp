@@ -82,8 +82,8 @@ std::vector<HardCase> originCases() {
     return {
         {"own shadow", "a lit wall 1 km from the middle of the scene, seen from 10 m", shadow, 0,
          [](Stage& s) { return ownShadow(s, 1e3); }},
-        {"own shadow far away", "the same at 100 km", shadow, 0, [](Stage& s) { return ownShadow(s, 1e5); }},
-        {"own shadow farther away", "the same at 1000 km", shadow, 0, [](Stage& s) { return ownShadow(s, 1e6); }},
+        {"own shadow far away", "a lit wall 100 km from the middle of the scene", shadow, 0, [](Stage& s) { return ownShadow(s, 1e5); }},
+        {"own shadow farther away", "a lit wall 1000 km from the middle of the scene", shadow, 0, [](Stage& s) { return ownShadow(s, 1e6); }},
         {"second sheet", "two sheets 0.1 mm apart, seen from 10 m", missed, 0,
          [](Stage& s) { return secondSheet(s, 1e-4, 0); }},
         {"second sheet far away", "two sheets 2 mm apart, 1 km from the middle of the scene", missed, 0,
