@@ -204,3 +204,12 @@ TEST_CASE("Embree's packets find what its single rays find") {
         CHECK(both.differing() == 0);
     }
 }
+
+TEST_CASE("of a driver's statistics the largest counts whose name fits, and none where it tells none") {
+    const std::vector<KernelStatistics> told = {{"first", {{"Register Count", 48}, {"Stack Size", 0}}},
+                                                {"second", {{"Register Count", 96}, {"Binary Size", 4096}}}};
+    CHECK(largestFigure(told, {"egister"}) == 96);
+    CHECK(largestFigure(told, {"tack", "cratch"}) == 0);
+    CHECK(largestFigure(told, {"cratch"}) < 0);
+    CHECK(largestFigure({}, {"egister"}) < 0);
+}
