@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <future>
 #include <initializer_list>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 
 #include "error.hpp"
 #include "levers.hpp"
+#include "parallel.hpp"
 #include "shader_library.hpp"
 
 namespace minirtc {
@@ -170,27 +172,32 @@ Kernel compileKernel(const std::string& name, const EffectSet& effects) {
 }
 
 std::vector<Kernel> KernelCompiler::compile(const std::vector<KernelJob>& jobs) {
-    std::vector<std::string> sources;
-    std::vector<std::pair<const KernelJob*, std::map<std::string, Kernel>::iterator>> fresh;
+    struct Fresh {
+        const KernelJob* job;
+        const std::string* source;
+        std::promise<Kernel> kernel;
+    };
+    std::vector<Fresh> fresh;
+    std::vector<std::shared_future<Kernel>> wanted;
     for (const KernelJob& job : jobs) {
-        sources.push_back(composeKernel(job.name, job.effects));
-        const auto [slot, isNew] = compiled_.try_emplace(sources.back());
-        if (isNew) fresh.push_back({&job, slot});
+        std::string source = composeKernel(job.name, job.effects);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const auto [slot, isNew] = compiled_.try_emplace(std::move(source));
+        if (isNew) {
+            fresh.push_back({&job, &slot->first, {}});
+            slot->second = fresh.back().kernel.get_future().share();
+        }
+        wanted.push_back(slot->second);
     }
-    std::vector<std::exception_ptr> failures(fresh.size());
-    pool_.parallelFor(fresh.size(), [&](size_t i) {
+    ThreadPool(threads_).parallelFor(fresh.size(), [&](size_t i) {
         try {
-            fresh[i].second->second = compileSource(*fresh[i].first, fresh[i].second->first);
+            fresh[i].kernel.set_value(compileSource(*fresh[i].job, *fresh[i].source));
         } catch (...) {
-            failures[i] = std::current_exception();
+            fresh[i].kernel.set_exception(std::current_exception());
         }
     });
-    for (size_t i = 0; i < fresh.size(); ++i)
-        if (failures[i]) compiled_.erase(fresh[i].second);
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
     std::vector<Kernel> kernels;
-    for (const std::string& source : sources) kernels.push_back(compiled_.at(source));
+    for (const std::shared_future<Kernel>& kernel : wanted) kernels.push_back(kernel.get());
     return kernels;
 }
 

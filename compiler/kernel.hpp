@@ -1,12 +1,13 @@
 // From a set of effects to SPIR-V.
 #pragma once
 #include <cstdint>
+#include <future>
 #include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "effects.hpp"
-#include "parallel.hpp"
 
 namespace minirtc {
 
@@ -32,18 +33,19 @@ struct KernelJob {
     EffectSet effects;
 };
 
-/// Compiles kernels side by side, and what it has compiled before not again.
+/// Compiles kernels side by side, and what it has compiled before not again. For any number of threads.
 class KernelCompiler {
 public:
     /// `threads`: 0 for all cores. The kernels do not depend on it.
-    explicit KernelCompiler(unsigned threads) : pool_(threads) {}
+    explicit KernelCompiler(unsigned threads) : threads_(threads) {}
 
     /// In the order of the jobs. Throws as compileKernel does.
     std::vector<Kernel> compile(const std::vector<KernelJob>& jobs);
 
 private:
-    ThreadPool pool_;
-    std::map<std::string, Kernel> compiled_;  // by their source
+    unsigned threads_;
+    std::mutex mutex_;
+    std::map<std::string, std::shared_future<Kernel>> compiled_;  // by their source
 };
 
 }  // namespace minirtc

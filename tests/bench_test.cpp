@@ -8,6 +8,7 @@
 #include "agreement.hpp"
 #include "embree_rays.hpp"
 #include "embree_tree.hpp"
+#include "kernel_statistics.hpp"
 #include "meshes.hpp"
 #include "ray_sets.hpp"
 #include "support.hpp"

@@ -18,5 +18,6 @@ std::vector<HardCase> intersectionCases();
 std::vector<HardCase> originCases();
 std::vector<HardCase> opticsCases();
 std::vector<HardCase> mediaCases();
+std::vector<HardCase> crossingCases();
 
 }  // namespace hard_cases

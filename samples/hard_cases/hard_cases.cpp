@@ -12,7 +12,7 @@ namespace {
 
 std::vector<HardCase> allCases() {
     std::vector<HardCase> all;
-    for (const auto& part : {intersectionCases(), originCases(), opticsCases(), mediaCases()})
+    for (const auto& part : {intersectionCases(), originCases(), opticsCases(), mediaCases(), crossingCases()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }
@@ -31,7 +31,8 @@ HardCaseResult run(const HardCase& one, const minirtc::LeverSettings& levers, St
 }  // namespace
 
 std::vector<HardCaseResult> runHardCases(minirt_context* context, const minirtc::LeverSettings& levers, const std::string& only) {
-    Stage stage(context);
+    minirtc::KernelCompiler compiler(1);
+    Stage stage(context, compiler);
     std::vector<HardCaseResult> results;
     for (const HardCase& one : allCases())
         if (one.name.find(only) != std::string::npos) results.push_back(run(one, levers, stage));
@@ -43,11 +44,12 @@ std::vector<std::vector<HardCaseResult>> runHardCases(const std::vector<minirt_c
                                                       const CaseProgress& progress) {
     const std::vector<HardCase> cases = allCases();
     std::vector<std::vector<HardCaseResult>> results(settings.size(), std::vector<HardCaseResult>(cases.size()));
+    minirtc::KernelCompiler compiler(1);
     std::mutex mutex;
     size_t next = 0;
     size_t done = 0;
     const auto work = [&](minirt_context* context) {
-        Stage stage(context);
+        Stage stage(context, compiler);
         std::unique_lock<std::mutex> lock(mutex);
         while (next < cases.size()) {
             const size_t i = next++;

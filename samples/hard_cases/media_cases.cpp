@@ -12,13 +12,6 @@ Json ball(const dvec3& center, double radius, const std::string& material) {
     return {{"sphere", {{"center", at(center)}, {"radius", radius}}}, {"material", material}};
 }
 
-/// The length of a ray from the camera within a ball around 0; 0 where it misses.
-double chord(const View& view, uint32_t x, uint32_t y, double radius) {
-    const dvec3 d = view.direction(x, y);
-    const double nearest = glm::length(view.position - glm::dot(view.position, d) * d);
-    return nearest < radius ? 2 * std::sqrt(radius * radius - nearest * nearest) : 0;
-}
-
 /// A ball of index 1 that takes half of the light in 1 m, before white: Beer's and Lambert's law along each ray.
 double absorption(Stage& stage) {
     Shot shot;
@@ -29,7 +22,7 @@ double absorption(Stage& stage) {
     shot.objects = {ball(dvec3(0), 1, "grey")};
     const Picture picture = stage.render(shot);
     return largestOf(picture, [&](uint32_t x, uint32_t y) {
-        const double length = chord(shot.view, x, y, 1);
+        const double length = chordOf(shot.view, x, y, 1);
         const bool rim = length > 0 && length < 0.1;  // where the length changes without bound
         return rim ? 0.0 : std::abs(picture.at(x, y) - std::pow(0.5, length));
     });

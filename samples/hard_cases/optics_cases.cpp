@@ -165,6 +165,38 @@ double normalsApart(Stage& stage) {
     return percentOf(picture, [&](uint32_t x, uint32_t y) { return picture.at(x, y) != 1; });
 }
 
+/// A lit wall with smooth normals, with and without faces of no area at each of its vertices: how many pixels differ, and NaNs.
+double smoothBesideDegenerates(Stage& stage) {
+    constexpr int kSide = 9;
+    std::string obj;
+    for (int j = 0; j <= kSide; ++j)
+        for (int i = 0; i <= kSide; ++i)
+            obj += "v " + std::to_string(0.2 * i - 0.9) + " " + std::to_string(0.2 * j - 0.9) + " " +
+                   std::to_string(0.1 * ((i * 7 + j * 3) % 5)) + "\n";
+    std::string degenerate;
+    for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) {
+            const std::string a = std::to_string(j * (kSide + 1) + i + 1);
+            const std::string b = std::to_string(j * (kSide + 1) + i + 2);
+            const std::string c = std::to_string((j + 1) * (kSide + 1) + i + 2);
+            const std::string d = std::to_string((j + 1) * (kSide + 1) + i + 1);
+            obj += "f " + a + " " + b + " " + c + "\nf " + a + " " + c + " " + d + "\n";
+            degenerate += "f " + a + " " + a + " " + c + "\n";
+        }
+    Shot shot;
+    shot.view = {{0, 0, 3}, {0, 0, 0}, 30, 64};
+    shot.materials["white"] = {{"model", "phong"}};
+    shot.lights = Json::array({{{"type", "directional"}, {"direction", {-1, -2, -3}}}});
+    shot.objects = {meshOf("wall.obj", "white")};
+    shot.objects[0]["smooth"] = true;
+    stage.write("wall.obj", obj);
+    const Picture plain = stage.render(shot);
+    stage.write("wall.obj", obj + degenerate);
+    const Picture beside = stage.render(shot);
+    return static_cast<double>(beside.stats.nan_pixels) +
+           percentOf(beside, [&](uint32_t x, uint32_t y) { return beside.at(x, y) != plain.at(x, y); });
+}
+
 }  // namespace
 
 std::vector<HardCase> opticsCases() {
@@ -182,6 +214,8 @@ std::vector<HardCase> opticsCases() {
         {"pole", "where all columns of a panorama meet overhead", "error, and NaNs", 1e-4, pole},
         {"normals apart", "a mirror whose smooth normals are far from its faces'", "% of rays that went into it", 0,
          normalsApart},
+        {"normals at degenerates", "smooth normals of vertices that faces without area share, against none such",
+         "% of pixels that differ, and NaNs", 0, smoothBesideDegenerates},
     };
 }
 

@@ -8,6 +8,8 @@
 namespace hard_cases {
 namespace {
 
+const std::vector<minirtc::Integrator> kIntegrators = {minirtc::Integrator::whitted};
+
 void require(minirt_context* context, minirt_result result) {
     if (result) throw std::runtime_error(std::string(minirt_result_string(result)) + ": " + minirt_last_message(context));
 }
@@ -38,7 +40,7 @@ dvec3 View::direction(uint32_t x, uint32_t y) const {
     return glm::normalize(forward + u * right - v * glm::cross(right, forward));
 }
 
-Stage::Stage(minirt_context* context) : context_(context) {
+Stage::Stage(minirt_context* context, minirtc::KernelCompiler& compiler) : context_(context), compiler_(compiler) {
     std::string pattern = (std::filesystem::temp_directory_path() / "minirt-hard-XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder can be made");
     folder_ = pattern;
@@ -67,11 +69,19 @@ Stage::Known& Stage::prepare(const std::string& text) {
     return known_[{text, files_}] = {minirtc::prepareScene((folder_ / "scene.json").string(), {}, warnings), {}};
 }
 
+/// Without the levers that cannot change a picture of this scene: they would only compile to the same kernels once more.
+minirtc::Choices Stage::choicesFor(const minirtc::PreparedScene& scene) const {
+    const minirtc::EffectSet effects = minirtc::chooseVariant(scene, kIntegrators, {}).effects;
+    minirtc::Choices choices;
+    for (const auto& [lever, setting] : levers_)
+        if (minirtc::applies(minirtc::findLever(lever), effects).applies) choices.levers[lever] = setting;
+    return choices;
+}
+
 Picture Stage::render(const Shot& shot) {
     Known& known = prepare(sceneOf(shot).dump());
-    const std::vector<minirtc::Integrator> integrators = {minirtc::Integrator::whitted};
-    const minirtc::Variant variant = minirtc::chooseVariant(known.scene, integrators, choices_);
-    const std::vector<minirtc::Kernel> kernels = compiler_.compile(minirtc::kernelJobs(variant, integrators));
+    const minirtc::Variant variant = minirtc::chooseVariant(known.scene, kIntegrators, choicesFor(known.scene));
+    const std::vector<minirtc::Kernel> kernels = compiler_.compile(minirtc::kernelJobs(variant, kIntegrators));
     std::vector<uint32_t> content = minirtc::contentOf(variant, kernels);
     const auto found = known.pictures.find(content);
     if (found != known.pictures.end()) return found->second;

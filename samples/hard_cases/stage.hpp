@@ -57,14 +57,15 @@ struct Shot {
 /// data as one before is that one.
 class Stage {
 public:
-    explicit Stage(minirt_context* context);
+    /// Others may have the same compiler.
+    Stage(minirt_context* context, minirtc::KernelCompiler& compiler);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
     /// From now on.
-    void set(const minirtc::LeverSettings& levers) { choices_.levers = levers; }
-    /// Forgets all scenes and pictures, not the kernels.
+    void set(const minirtc::LeverSettings& levers) { levers_ = levers; }
+    /// Forgets all scenes and pictures.
     void clear();
 
     /// A file that a scene names.
@@ -79,14 +80,15 @@ private:
     };
 
     Known& prepare(const std::string& text);
+    minirtc::Choices choicesFor(const minirtc::PreparedScene& scene) const;
     Picture shoot(const std::vector<uint8_t>& blob, const View& view) const;
 
     minirt_context* context_;
-    minirtc::Choices choices_;
+    minirtc::KernelCompiler& compiler_;
+    minirtc::LeverSettings levers_;
     std::filesystem::path folder_;
     std::map<std::string, std::string> files_;
     std::map<std::pair<std::string, std::map<std::string, std::string>>, Known> known_;  // by the scene and its files
-    minirtc::KernelCompiler compiler_{1};
 };
 
 /// Share of pixels for which `is` holds, in percent.
