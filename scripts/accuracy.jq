@@ -24,8 +24,8 @@ Each lever is moved alone from what the scene says by itself. **Error** is relMS
 stayed and noise has fallen. **Time** is the accurate setting's over the cheap one's: the median, and the middle half, of all pairs of repeats, which were
 measured in rounds in which all settings take turns; the drift of whole rounds is taken out. A pixel is **wrong** when its 8-bit sRGB value is off by more
 than 2 steps; given where pictures have no noise, by how many more the cheap setting gets wrong at the same samples.
-`keep`: worth its time; `spare`: costs time for nothing; `trade`: more accurate, but slower by more than that; `either`: no difference; `·`: it can
-change nothing there.";
+`keep`: the error falls by a larger factor than the time grows; `trade`: more accurate, but the time grows by the larger factor; `spare`: costs time for
+nothing; `either`: no difference; `·`: it can change nothing there.";
 
 # The leading verdicts of each scene.
 def glance:
@@ -70,7 +70,7 @@ def where_levers_matter:
 
 def scene_section:
     .report as $r | "\n### `\(.scene)`, \(.name)\n\n\($r.width) × \($r.height), \($r.samples) of \($r.scene_samples) samples a pixel; its own settings take \($r.measurements[0].ms.median | rounded(2)) ms with relMSE \($r.measurements[0].error.relmse | rounded(5)); the reference has \($r.reference.samples) samples and relMSE \($r.reference.relmse | rounded(6)) of its own.\n",
-    ($r.findings[] | "- " + .), ($r.levers[] | select(.applies | not) | "- \(.name) changes nothing: \(.reason).");
+    ($r.findings[] | "- " + .), ($r.levers[] | select(.applies | not) | "- \(.name) is left alone: \(.reason).");
 
 [inputs | {scene: (input_filename | sub(".*/"; "") | sub("\\.json$"; "")), name: (.device | short_name), report: .}]
 | ([.[].name] | distinct) as $names

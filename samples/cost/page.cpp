@@ -57,8 +57,9 @@ std::string chip(const Comparison& c) {
 std::vector<size_t> pictured(const Report& report) {
     constexpr size_t kMost = 14;
     std::vector<size_t> chosen = {0};
-    for (const Comparison& c : report.comparisons)
-        if (c.change != ErrorChange::none && chosen.size() <= kMost) chosen.push_back(c.measurement);
+    for (const bool leading : {true, false})
+        for (const Comparison& c : report.comparisons)
+            if (c.leading == leading && c.change != ErrorChange::none && chosen.size() <= kMost) chosen.push_back(c.measurement);
     return chosen;
 }
 
@@ -140,8 +141,9 @@ std::string leversSection(const Report& report) {
     for (const Failure& f : report.failures)
         items += element("li", "", "<span class=\"chip either\">failed</span>" + element("span", "", escaped(f.reason)));
     const std::string key =
-        "<b>keep</b>: worth its time. <b>spare</b>: costs time for nothing. <b>trade</b>: more accurate, but slower by more than "
-        "that. <b>either</b>: no difference.";
+        "<b>keep</b>: costs no time, or the error falls by a larger factor than the time grows. <b>trade</b>: more accurate, but the "
+        "time grows by the larger factor. <b>spare</b>: costs time for nothing. <b>either</b>: no difference. How to set each: "
+        "<code>minirtc levers</code>.";
     return element("h2", "", "Each lever, the most useful first") + element("ul", "class=\"levers\"", items) +
            element("p", "class=\"soft\"", key);
 }
@@ -288,7 +290,7 @@ std::string methodSection(const Report& report) {
                         "a driver that caches them makes it smaller.");
     if (report.samples() < report.sceneSamples)
         text += element("p", "",
-                        "Measured with " + std::to_string(report.samples()) + " samples a pixel instead of the scene's " +
+                        "Measured with " + std::to_string(report.samples()) + (report.samples() == 1 ? " sample" : " samples") + " a pixel instead of the scene's " +
                             std::to_string(report.sceneSamples) + ", to end in time.");
     text += element("p", "",
                     "Of " + number(report.seconds) + " s " + number(report.prepareSeconds) + " s went into baking and into the pipelines of " +
