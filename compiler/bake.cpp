@@ -65,32 +65,6 @@ void writeStats(const std::string& path, const Geometry& geometry, const Bvh& bv
     writeFile(path, text.data(), text.size());
 }
 
-/// The kernels of all integrators that the blob is for. Whitted's holds what it needs alone, the others share theirs.
-std::vector<Kernel> compileKernels(const std::vector<Integrator>& integrators, const EffectSet& whitted, const EffectSet& all) {
-    std::vector<Kernel> kernels;
-    for (Integrator integrator : integrators) {
-        const EffectSet& effects = integrator == Integrator::whitted ? whitted : all;
-        for (const std::string& name : kernelsOf(integrator, effects)) kernels.push_back(compileKernel(name, effects));
-    }
-    return kernels;
-}
-
-/// The settings of all levers that were asked for: by the options, else by the scene file.
-LeverSettings askedLevers(const BakeOptions& options, const Scene& scene) {
-    LeverSettings asked = options.levers;
-    for (const auto& [lever, setting] : asked) requireSetting(lever, setting);
-    asked.insert(scene.render.accuracy.begin(), scene.render.accuracy.end());
-    return asked;
-}
-
-/// What the options and the levers make of what the scene calls for.
-EffectSet chosenEffects(EffectSet effects, const BakeOptions& options, const LeverSettings& asked) {
-    if (options.allEffects) includeAll(effects);
-    applyToEffects(asked, effects);
-    for (const std::string& name : options.without) removeEffect(effects, findEffect(name), options.force);
-    return effects;
-}
-
 /// Finds before the work what would keep its result from being written.
 void checkOutputs(const BakeOptions& options) {
     requireWritable(options.output);
@@ -106,14 +80,6 @@ std::string megabytes(size_t bytes) {
     return text;
 }
 
-/// What passed every check of the inputs must pass the runtime's too; numbers that overflow only in combination end here.
-void requireValid(const std::string& scene, const std::vector<uint8_t>& blob) {
-    minirt_validation validation;
-    if (minirt_validate(blob.data(), blob.size(), nullptr, &validation))
-        throw Error({scene}, std::string("the baked scene is not valid: ") + validation.message,
-                    "are some of its numbers too large?");
-}
-
 }  // namespace
 
 int bake(const BakeOptions& options) {
@@ -121,35 +87,24 @@ int bake(const BakeOptions& options) {
     checkOutputs(options);
     Diagnostics own;
     Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
-    Scene scene = loadScene(options.scene, diagnostics);
-    const LeverSettings asked = askedLevers(options, scene);
-    applyToScene(asked, scene);
-    if (options.onlyDefault) scene.render.integrators = {scene.render.integrator};
-    const Geometry geometry = flatten(scene, diagnostics);
-    const Bvh bvh = buildBvh(geometry, options.threads, options.bvh);
-    const EncodedNodes nodes = encodeNodes(bvh, geometry, options.layout);
-    const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, options.threads);
-    const bool floatNodes = nodes.layout == MINIRT_NODES_FLOAT;
-    const auto effectsFor = [&](bool paths) {
-        return chosenEffects(analyseEffects(scene, geometry, volumes, floatNodes, paths), options, asked);
-    };
-    const EffectSet effects = effectsFor(scene.render.tracesPaths());
-    const EffectSet whitted = effectsFor(false);
-    const std::vector<Kernel> kernels = compileKernels(scene.render.integrators, whitted, effects);
-    const std::vector<uint8_t> blob = assembleBlob({scene, geometry, bvh, nodes, volumes, effects, kernels});
-
-    requireValid(options.scene, blob);
+    const PreparedScene prepared = prepareScene(options.scene, {options.layout, options.bvh, options.threads}, diagnostics);
+    const auto& [scene, geometry, bvh, nodes, volumes] = prepared;
+    const std::vector<Integrator> integrators =
+        options.onlyDefault ? std::vector<Integrator>{scene.render.integrator} : scene.render.integrators;
+    const Variant variant = chooseVariant(prepared, integrators, options.choices);
+    const std::vector<Kernel> kernels = KernelCompiler(options.threads).compile(kernelJobs(variant, integrators));
+    const std::vector<uint8_t> blob = finishBlob(prepared, variant, kernels);
 
     for (const std::string& warning : own.warnings) std::cerr << warning << "\n";
     if (options.explain) {
-        printEffects(effects);
-        printLevers(asked, scene);
+        printEffects(variant.effects);
+        printLevers(askedLevers(options.choices, scene), scene);
         printVolumes(geometry, volumes);
     }
     if (!options.saveGlslDir.empty()) saveGlsl(options.saveGlslDir, kernels);
     writeFile(options.output, blob.data(), blob.size());
     const double totalMs = nowMs() - start;
-    if (!options.statsFile.empty()) writeStats(options.statsFile, geometry, bvh, effects, kernels, blob.size(), totalMs);
+    if (!options.statsFile.empty()) writeStats(options.statsFile, geometry, bvh, variant.effects, kernels, blob.size(), totalMs);
     if (!options.quiet) {
         std::cout << options.output << ": " << geometry.primitives.size() << " primitives, " << megabytes(blob.size()) << ", "
                   << static_cast<int>(totalMs) << " ms\n";

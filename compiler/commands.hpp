@@ -2,8 +2,7 @@
 #pragma once
 #include <string>
 
-#include "blob.hpp"
-#include "levers.hpp"
+#include "prepared_scene.hpp"
 
 namespace minirtc {
 
@@ -11,11 +10,8 @@ struct BakeOptions {
     std::string scene;
     std::string output;
     bool explain = false;
-    bool allEffects = false;
-    std::vector<std::string> without;  // effects to leave out
-    bool force = false;                // also where the scene calls for them
-    LeverSettings levers;              // over what the scene file says
-    bool onlyDefault = false;          // kernels of the scene's own integrator alone
+    Choices choices;
+    bool onlyDefault = false;  // kernels of the scene's own integrator alone
     LayoutChoice layout = LayoutChoice::automatic;
     BvhQuality bvh = BvhQuality::high;
     unsigned threads = 0;     // 0: all cores

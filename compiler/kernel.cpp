@@ -5,6 +5,8 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
+#include <exception>
+#include <future>
 #include <initializer_list>
 #include <memory>
 #include <mutex>
@@ -13,6 +15,7 @@
 
 #include "error.hpp"
 #include "levers.hpp"
+#include "parallel.hpp"
 #include "shader_library.hpp"
 
 namespace minirtc {
@@ -130,6 +133,18 @@ std::vector<uint32_t> optimise(const std::string& name, const std::vector<uint32
     return optimised;
 }
 
+Kernel compileSource(const KernelJob& job, const std::string& source) {
+    Compiled compiled = compileGlsl(job.name, source);
+    Kernel kernel;
+    kernel.name = job.name;
+    kernel.glsl = source;
+    kernel.bindings = compiled.bindings;
+    kernel.spirv = optimise(job.name, compiled.spirv);
+    // One a level of depth, and a dispersed ray's further channels.
+    kernel.waits = job.name == "whitted" && job.effects.splits() ? job.effects.channels() : 0;
+    return kernel;
+}
+
 }  // namespace
 
 std::string composeKernel(const std::string& name, const EffectSet& effects) {
@@ -162,15 +177,37 @@ std::vector<std::string> kernelsOf(Integrator integrator, const EffectSet& effec
 }
 
 Kernel compileKernel(const std::string& name, const EffectSet& effects) {
-    Kernel kernel;
-    kernel.name = name;
-    kernel.glsl = composeKernel(name, effects);
-    Compiled compiled = compileGlsl(name, kernel.glsl);
-    kernel.bindings = compiled.bindings;
-    kernel.spirv = optimise(name, compiled.spirv);
-    kernel.waits = name == "whitted" && effects.splits() ? effects.channels()
-                                                         : 0;  // one a level of depth, and a dispersed ray's further channels
-    return kernel;
+    return compileSource({name, effects}, composeKernel(name, effects));
+}
+
+std::vector<Kernel> KernelCompiler::compile(const std::vector<KernelJob>& jobs) {
+    struct Fresh {
+        const KernelJob* job;
+        const std::string* source;
+        std::promise<Kernel> kernel;
+    };
+    std::vector<Fresh> fresh;
+    std::vector<std::shared_future<Kernel>> wanted;
+    for (const KernelJob& job : jobs) {
+        std::string source = composeKernel(job.name, job.effects);
+        const std::lock_guard<std::mutex> lock(mutex_);
+        const auto [slot, isNew] = compiled_.try_emplace(std::move(source));
+        if (isNew) {
+            fresh.push_back({&job, &slot->first, {}});
+            slot->second = fresh.back().kernel.get_future().share();
+        }
+        wanted.push_back(slot->second);
+    }
+    ThreadPool(threads_).parallelFor(fresh.size(), [&](size_t i) {
+        try {
+            fresh[i].kernel.set_value(compileSource(*fresh[i].job, *fresh[i].source));
+        } catch (...) {
+            fresh[i].kernel.set_exception(std::current_exception());
+        }
+    });
+    std::vector<Kernel> kernels;
+    for (const std::shared_future<Kernel>& kernel : wanted) kernels.push_back(kernel.get());
+    return kernels;
 }
 
 }  // namespace minirtc

@@ -1,6 +1,9 @@
 // From a set of effects to SPIR-V.
 #pragma once
 #include <cstdint>
+#include <future>
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -24,5 +27,25 @@ std::vector<std::string> kernelsOf(Integrator integrator, const EffectSet& effec
 
 /// Compiles (glslang), optimises and validates (SPIRV-Tools). A failure is a defect of the project: throws Error with the log.
 Kernel compileKernel(const std::string& name, const EffectSet& effects);
+
+struct KernelJob {
+    std::string name;
+    EffectSet effects;
+};
+
+/// Compiles kernels side by side, and what it has compiled before not again. For any number of threads.
+class KernelCompiler {
+public:
+    /// `threads`: 0 for all cores. The kernels do not depend on it.
+    explicit KernelCompiler(unsigned threads) : threads_(threads) {}
+
+    /// In the order of the jobs. Throws as compileKernel does.
+    std::vector<Kernel> compile(const std::vector<KernelJob>& jobs);
+
+private:
+    unsigned threads_;
+    std::mutex mutex_;
+    std::map<std::string, std::shared_future<Kernel>> compiled_;  // by their source
+};
 
 }  // namespace minirtc

@@ -158,13 +158,20 @@ std::string settingOf(const Lever& lever, const LeverSettings& settings, const S
     return lever.byDefault;
 }
 
-void applyToScene(const LeverSettings& settings, Scene& scene) {
-    const std::string nesting = asked(settings, "nesting");
-    if (nesting == "parity") scene.nesting = Nesting::parity;
-    if (nesting == "ordered") scene.nesting = Nesting::ordered;
-    const std::string dispersion = asked(settings, "dispersion");
-    if (dispersion == "rgb") scene.render.dispersionMode = DispersionMode::rgb;
-    if (dispersion == "spectral") scene.render.dispersionMode = DispersionMode::spectral;
+void applyMethods(const LeverSettings& settings, EffectSet& effects) {
+    const struct {
+        const char* lever;
+        const char* without;
+        const char* with;
+        Effect whole, method;
+        const char* reason;
+    } methods[] = {{"nesting", "ordered", "parity", Effect::nesting, Effect::parity, "\"nesting\": \"parity\""},
+                   {"dispersion", "rgb", "spectral", Effect::dispersion, Effect::spectral, "\"dispersionMode\": \"spectral\""}};
+    for (const auto& m : methods) {
+        const std::string setting = asked(settings, m.lever);
+        if (setting == m.without) effects[m.method] = {false, effectInfo(m.method).absent};
+        if (setting == m.with && effects.has(m.whole)) effects[m.method] = {true, m.reason};
+    }
 }
 
 void applyToEffects(const LeverSettings& settings, EffectSet& effects) {

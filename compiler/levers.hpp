@@ -47,7 +47,7 @@ void readSetting(const std::string& text, LeverSettings& settings);
 std::string settingOf(const Lever& lever, const LeverSettings& asked, const Scene& scene);
 
 /// What the levers say of how volumes nest and light disperses takes the place of what the scene says.
-void applyToScene(const LeverSettings& asked, Scene& scene);
+void applyMethods(const LeverSettings& asked, EffectSet& effects);
 
 /// Leaves out the effects whose lever is off, and notes all settings that are not the default.
 void applyToEffects(const LeverSettings& asked, EffectSet& effects);

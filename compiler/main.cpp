@@ -35,10 +35,10 @@ void addBake(CLI::App& app, BakeOptions& options, std::vector<std::string>& sett
     bake->add_flag("--explain", options.explain, "Print each effect, in or out of the kernels, and why");
     bake->add_flag("--only-default", options.onlyDefault,
                    "Kernels of the scene's own integrator alone (default: of all that can draw it)");
-    bake->add_flag("--all-effects", options.allEffects, "Compile every effect into the kernels, called for or not");
-    bake->add_option("--without", options.without, "Leave an effect out that the scene does not call for; repeatable")
+    bake->add_flag("--all-effects", options.choices.allEffects, "Compile every effect into the kernels, called for or not");
+    bake->add_option("--without", options.choices.without, "Leave an effect out that the scene does not call for; repeatable")
         ->allow_extra_args(false);
-    bake->add_flag("--force", options.force, "With --without: also where the scene calls for it, for another picture");
+    bake->add_flag("--force", options.choices.force, "With --without: also where the scene calls for it, for another picture");
     bake->add_option("--set", settings, "LEVER=SETTING of accuracy, see minirtc levers; repeatable")->allow_extra_args(false);
     bake->add_option_function<std::string>(
             "--layout", [&](const std::string& name) { options.layout = layouts().at(name); },
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
     devices->footer("Example:\n  minirtc devices");
     CLI11_PARSE(app, argc, argv);
     try {
-        for (const std::string& setting : settings) readSetting(setting, bakeOptions.levers);
+        for (const std::string& setting : settings) readSetting(setting, bakeOptions.choices.levers);
         if (app.got_subcommand("bake")) return bake(bakeOptions);
         if (app.got_subcommand("inspect")) return inspect(inspectOptions);
         if (app.got_subcommand("levers")) return listLevers(leversOptions);

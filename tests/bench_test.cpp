@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "embree_rays.hpp"
 #include "embree_tree.hpp"
+#include "kernel_statistics.hpp"
 #include "meshes.hpp"
 #include "ray_sets.hpp"
 #include "scaling.hpp"
@@ -239,4 +240,13 @@ TEST_CASE("Embree's packets find what its single rays find") {
         CHECK(both.hits > 500);
         CHECK(both.differing() == 0);
     }
+}
+
+TEST_CASE("of a driver's statistics the largest counts whose name fits, and none where it tells none") {
+    const std::vector<KernelStatistics> told = {{"first", {{"Register Count", 48}, {"Stack Size", 0}}},
+                                                {"second", {{"Register Count", 96}, {"Binary Size", 4096}}}};
+    CHECK(largestFigure(told, {"egister"}) == 96);
+    CHECK(largestFigure(told, {"tack", "cratch"}) == 0);
+    CHECK(largestFigure(told, {"cratch"}) < 0);
+    CHECK(largestFigure({}, {"egister"}) < 0);
 }

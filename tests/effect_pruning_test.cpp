@@ -148,14 +148,14 @@ void writeFiles(const TemporaryDir& dir) {
 
 BakeOptions with(const std::vector<std::string>& without) {
     BakeOptions options;
-    options.without = without;
-    options.force = !without.empty();
+    options.choices.without = without;
+    options.choices.force = !without.empty();
     return options;
 }
 
 BakeOptions withAll() {
     BakeOptions options;
-    options.allEffects = true;
+    options.choices.allEffects = true;
     return options;
 }
 

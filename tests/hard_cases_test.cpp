@@ -30,7 +30,7 @@ TEST_CASE("the default settings hold every hard case") {
     if (!gpu) return;
     const std::vector<HardCaseResult> results = runHardCases(gpu.get(), {});
     MESSAGE(tableOf(results));
-    CHECK(results.size() >= 20);
+    CHECK(results.size() >= 43);
     for (const HardCaseResult& result : results) {
         CAPTURE(result.name);
         CHECK(result.failure == "");
@@ -54,6 +54,17 @@ TEST_CASE("the settings of the seed lose the cases that are known of them") {
                                            "own shadow farther away",
                                            "second sheet",
                                            "mirror shaft",
+                                           "light guide",
+                                           "tiny coordinates",
+                                           "huge coordinates",
+                                           "all scales",
+                                           "beside degenerates",
+                                           "at degenerates",
+                                           "denormals",
+                                           "crossings at vertices",
+                                           "crossings at edges",
+                                           "crossings at diagonals",
+                                           "deep nest",
                                            "reflectance from outside",
                                            "reflectance from inside",
                                            "absorption",
@@ -85,6 +96,9 @@ TEST_CASE("each cheap lever alone costs what is known of it") {
     CHECK(figure({{"ray_offset", "distance_scaled"}}, "second sheet") > 99);
     CHECK(figure({{"ray_offset", "distance_scaled"}}, "own shadow far away") > 20);
     CHECK(figure({{"ray_offset", "constant"}}, "second sheet") > 99);
+    CHECK(figure({{"intersection", "moller_trumbore"}}, "crossings at vertices") > 1);
+    CHECK(figure({{"ray_offset", "constant"}}, "tiny coordinates") == 0);  // nothing else is near enough to be passed over
+    CHECK(figure({{"ray_offset", "constant"}}, "huge coordinates") > 20);
 }
 
 TEST_CASE("doubles hold what floats hold") {

@@ -18,7 +18,7 @@ namespace {
 Picture renderWith(const GpuContext& gpu, const TemporaryDir& dir, const std::string& scene, const LeverSettings& levers,
                    minirt_render_desc desc = {}) {
     BakeOptions options;
-    options.levers = levers;
+    options.choices.levers = levers;
     options.onlyDefault = true;
     return LoadedScene(gpu, bakeScene(dir, scene, "lever", options)).render(desc);
 }
@@ -127,7 +127,7 @@ TEST_CASE("in doubles spheres and triangles are the same within rounding") {
 TEST_CASE("kernels in doubles are refused where the device is not known to have them") {
     const TemporaryDir dir;
     BakeOptions options;
-    options.levers = {{"precision", "double"}};
+    options.choices.levers = {{"precision", "double"}};
     options.onlyDefault = true;
     const std::string doubles = bakeScene(dir, mirrorScene(), "doubles", options).string();
     const std::string floats = bakeScene(dir, mirrorScene(), "floats", {}).string();

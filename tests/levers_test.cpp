@@ -91,13 +91,22 @@ TEST_CASE("a lever outweighs what the scene says, which outweighs the default") 
     CHECK(settingOf(findLever("dispersion"), {}, scene) == "spectral");
     const LeverSettings asked = {{"nesting", "ordered"}, {"dispersion", "rgb"}};
     CHECK(settingOf(findLever("nesting"), asked, scene) == "ordered");
-    applyToScene({}, scene);
-    CHECK(scene.nesting == Nesting::parity);
-    applyToScene(asked, scene);
-    CHECK(scene.nesting == Nesting::ordered);
-    CHECK(scene.render.dispersionMode == DispersionMode::rgb);
-    applyToScene({{"nesting", "off"}, {"dispersion", "off"}}, scene);
-    CHECK(scene.nesting == Nesting::ordered);
+    EffectSet parity = only({Effect::nesting, Effect::parity, Effect::dispersion, Effect::spectral});
+    applyMethods({}, parity);
+    CHECK(parity.has(Effect::parity));
+    applyMethods({{"nesting", "off"}, {"dispersion", "off"}}, parity);
+    CHECK(parity.has(Effect::parity));
+    applyMethods(asked, parity);
+    CHECK_FALSE(parity.has(Effect::parity));
+    CHECK_FALSE(parity.has(Effect::spectral));
+    CHECK(parity[Effect::parity].reason == effectInfo(Effect::parity).absent);
+    applyMethods({{"nesting", "parity"}, {"dispersion", "spectral"}}, parity);
+    CHECK(parity.has(Effect::parity));
+    CHECK(parity.has(Effect::spectral));
+    EffectSet plain = only({});
+    applyMethods({{"nesting", "parity"}, {"dispersion", "spectral"}}, plain);
+    CHECK_FALSE(plain.has(Effect::parity));
+    CHECK_FALSE(plain.has(Effect::spectral));
 }
 
 TEST_CASE("a lever that is off leaves its effects out and says so") {

@@ -69,7 +69,7 @@ Picture renderScene(const GpuContext& gpu, const std::string& json) {
 
 Picture renderWithAllEffects(const GpuContext& gpu, const TemporaryDir& dir, const std::string& json) {
     minirtc::BakeOptions options;
-    options.allEffects = true;
+    options.choices.allEffects = true;
     options.onlyDefault = true;
     return LoadedScene(gpu, bakeScene(dir, json, "all", options)).render();
 }

@@ -21,7 +21,7 @@ size_t bake(const fs::path& scene, const fs::path& blob, bool all) {
     options.output = blob.string();
     options.statsFile = stats.string();
     options.onlyDefault = true;
-    options.allEffects = all;
+    options.choices.allEffects = all;
     options.quiet = true;
     minirtc::bake(options);
     std::ifstream file(stats);
@@ -57,6 +57,7 @@ EffectsResult benchEffects(const fs::path& scene, const EffectsOptions& options)
     result.integrator = nameOf(stages[0]->scene().integrator);
     const std::vector<Times> times = takeTurns(contenders, options.rounds);
     for (size_t i = 0; i < 2; ++i) kernels[i]->msPerSample = spreadOf(times[i].ms);
+    for (size_t i = 0; i < 2; ++i) kernels[i]->statistics = kernelStatistics(options.device, blobs[i].string());
     result.speedup = ratioTo(times[1].ms, times[0].ms);
     return result;
 }

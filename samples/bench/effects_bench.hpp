@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "kernel_statistics.hpp"
 #include "timing.hpp"
 
 namespace bench {
@@ -18,6 +19,7 @@ struct KernelResult {
     size_t spirvBytes = 0;
     double firstDispatchMs = 0;  // creation of the pipelines and an empty dispatch, nothing cached
     Spread msPerSample;
+    std::vector<KernelStatistics> statistics;  // where the driver gives any
 };
 
 struct EffectsResult {

@@ -1,5 +1,6 @@
 #include "report.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace bench {
@@ -19,6 +20,16 @@ void print(const LoadResult& load) {
         "before\n",
         load.load.median, static_cast<double>(load.bytes) / load.load.median * 1e-6, load.ratio.median, load.ratio.lower,
         load.ratio.upper, load.ratioAgain.median, load.ratioAgain.lower, load.ratioAgain.upper);
+}
+
+/// "48 of 96": a figure that drivers name by one of `words`, of the pruned kernel and of the whole one.
+std::string pairOf(const EffectsResult& result, const std::vector<std::string>& words) {
+    const double pruned = largestFigure(result.pruned.statistics, words);
+    const double whole = largestFigure(result.whole.statistics, words);
+    if (pruned < 0 || whole < 0) return "not told";
+    char text[64];
+    std::snprintf(text, sizeof text, "%.0f of %.0f", pruned, whole);
+    return text;
 }
 
 }  // namespace
@@ -98,8 +109,14 @@ Json toJson(const SceneResult& result) {
 
 Json toJson(const EffectsResult& result) {
     const auto kernel = [](const KernelResult& k) {
-        return Json{
+        Json json = {
             {"spirv_bytes", k.spirvBytes}, {"first_dispatch_ms", k.firstDispatchMs}, {"ms_per_sample", toJson(k.msPerSample)}};
+        for (const KernelStatistics& program : k.statistics) {
+            Json figures = Json::object();
+            for (const auto& [name, value] : program.figures) figures[name] = value;
+            json["driver_statistics"].push_back({{"program", program.program}, {"figures", figures}});
+        }
+        return json;
     };
     return {{"scene", result.scene},
             {"integrator", result.integrator},
@@ -151,14 +168,18 @@ void print(const SceneResult& result) {
 }
 
 void print(const std::vector<EffectsResult>& results) {
-    std::printf(
-        "| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (quartiles) "
-        "|\n|---|---|---|---|---|\n");
-    for (const EffectsResult& e : results)
-        std::printf("| `%s` %s | %.0f of %.0f | %.0f of %.0f | %.2f of %.2f | %.2f (%.2f to %.2f) |\n", e.scene.c_str(),
+    const bool told = std::any_of(results.begin(), results.end(), [](const EffectsResult& e) { return !e.pruned.statistics.empty(); });
+    std::printf("| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (quartiles) |%s\n",
+                told ? " registers | stack, bytes |" : "");
+    std::printf("|---|---|---|---|---|%s\n", told ? "---|---|" : "");
+    for (const EffectsResult& e : results) {
+        std::printf("| `%s` %s | %.0f of %.0f | %.0f of %.0f | %.3g of %.3g | %.2f (%.2f to %.2f) |", e.scene.c_str(),
                     e.integrator.c_str(), static_cast<double>(e.pruned.spirvBytes) * 1e-3,
                     static_cast<double>(e.whole.spirvBytes) * 1e-3, e.pruned.firstDispatchMs, e.whole.firstDispatchMs,
                     e.pruned.msPerSample.median, e.whole.msPerSample.median, e.speedup.median, e.speedup.lower, e.speedup.upper);
+        if (told) std::printf(" %s | %s |", pairOf(e, {"egister"}).c_str(), pairOf(e, {"tack", "cratch", "ocal Mem"}).c_str());
+        std::printf("\n");
+    }
 }
 
 }  // namespace bench

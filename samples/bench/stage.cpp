@@ -20,9 +20,10 @@ TemporaryFolder::~TemporaryFolder() {
     fs::remove_all(path_, ignored);
 }
 
-Stage::Stage(const std::string& device, const std::string& blob) : blob_(blob) {
+Stage::Stage(const std::string& device, const std::string& blob, PFN_vkGetInstanceProcAddr functions) : blob_(blob) {
     minirt_context_desc desc = {};
     desc.device_name = device.c_str();
+    desc.host.get_instance_proc_addr = functions;
     minirt_context* context = nullptr;
     const minirt_result result = minirt_create(&desc, &context);
     if (result) throw std::runtime_error(minirt_result_string(result));

@@ -25,7 +25,8 @@ private:
 /// A device with one scene on it. Its functions throw std::runtime_error.
 class Stage {
 public:
-    Stage(const std::string& device, const std::string& blob);
+    /// `functions`: where the runtime looks for Vulkan; null: in the loader that the system has.
+    Stage(const std::string& device, const std::string& blob, PFN_vkGetInstanceProcAddr functions = nullptr);
 
     void load();
     minirt_scene_desc scene() const;

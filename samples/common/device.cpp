@@ -20,7 +20,7 @@ const char* hintFor(minirt_result result) {
 
 }  // namespace
 
-Device::Device(const std::string& name, bool validation) {
+Device::Device(const std::string& name, bool validation) : name_(name) {
     minirt_context_desc desc = {};
     desc.device_name = name.c_str();
     desc.validation = validation ? 1 : 0;

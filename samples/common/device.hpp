@@ -2,6 +2,7 @@
 #pragma once
 #include <minirt.h>
 
+#include <memory>
 #include <string>
 
 /// Owns a minirt_context with all that belongs to it.
@@ -12,6 +13,9 @@ public:
     ~Device() { minirt_destroy(context_); }
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
+
+    /// The same device once more, for another thread.
+    std::unique_ptr<Device> another() const { return std::make_unique<Device>(name_); }
 
     /// Loads a blob; the scene lives as long as the device. Throws std::runtime_error that names the file.
     minirt_scene* load(const std::string& path);
@@ -27,6 +31,7 @@ public:
 private:
     static void keepMessage(void* self, minirt_log_level level, const char* message);
 
+    std::string name_;
     minirt_context* context_ = nullptr;
     std::string error_;  // the last one; the context that failed to open has none to ask
 };

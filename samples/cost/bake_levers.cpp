@@ -1,6 +1,5 @@
 #include "bake_levers.hpp"
 
-#include <commands.hpp>
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
@@ -8,7 +7,7 @@
 namespace cost {
 namespace {
 
-/// What a setting is called in a sentence; the compiler's own text explains it, which takes longer.
+/// The compiler's own text explains a setting, which takes longer.
 const std::map<std::string, std::string>& words() {
     static const std::map<std::string, std::string> table = {
         {"intersection=moller_trumbore_epsilon", "Möller and Trumbore's intersection with an epsilon"},
@@ -48,38 +47,43 @@ Lever leverOf(const minirtc::Lever& source, const std::string& own, const minirt
     Lever lever{LeverKind::baked, source.name, titleOf(source.name), {}, 0, 0, source.name == "normals", ""};
     for (const minirtc::LeverSetting& setting : source.settings) {
         if (setting.name == own) lever.initial = lever.settings.size();
-        const auto found = words().find(source.name + "=" + setting.name);
-        lever.settings.push_back({setting.name, found == words().end() ? source.name + " " + setting.name : found->second, 0});
+        lever.settings.push_back({setting.name, wordsOf(source.name, setting.name), 0});
     }
     lever.best = applicability.applies ? lever.settings.size() - 1 : lever.initial;
     if (!applicability.applies) lever.idle = applicability.reason;
     return lever;
 }
 
-/// The compiler's warnings once, not with every variant of the scene.
-class SilencedErrors {
-public:
-    explicit SilencedErrors(bool silence) : buffer_(std::cerr.rdbuf()) {
-        if (silence) std::cerr.rdbuf(nullptr);
-    }
-    ~SilencedErrors() {
-        std::cerr.rdbuf(buffer_);
-        std::cerr.clear();
-    }
-    SilencedErrors(const SilencedErrors&) = delete;
-    SilencedErrors& operator=(const SilencedErrors&) = delete;
-
-private:
-    std::streambuf* buffer_;
-};
+minirtc::Integrator integratorOf(minirt_integrator integrator) {
+    return static_cast<minirtc::Integrator>(static_cast<uint32_t>(integrator) - MINIRT_INTEGRATOR_WHITTED);
+}
 
 }  // namespace
 
-std::vector<Lever> bakeLevers(const std::string& sceneFile) {
+std::string wordsOf(const std::string& lever, const std::string& setting) {
+    const auto found = words().find(lever + "=" + setting);
+    return found == words().end() ? lever + " " + setting : found->second;
+}
+
+Baker::Baker(const std::string& sceneFile) {
     minirtc::Diagnostics diagnostics;
-    const minirtc::Scene scene = minirtc::loadScene(sceneFile, diagnostics);
-    const minirtc::Geometry geometry = minirtc::flatten(scene, diagnostics);
-    const minirtc::Volumes volumes = minirtc::analyseVolumes(scene, geometry, diagnostics, 0);
+    prepared_ = minirtc::prepareScene(sceneFile, {}, diagnostics);
+    for (const std::string& warning : diagnostics.warnings) std::cerr << warning << "\n";
+    const minirtc::RenderDefaults& render = prepared_.scene.render;
+    integrators_ = render.integrators;
+    if (render.integrator == minirtc::Integrator::whitted) integrators_ = {render.integrator};
+    std::string pattern = (std::filesystem::temp_directory_path() / "minirt-cost-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error(pattern + ": cannot be made; is there room for temporary files?");
+    folder_ = pattern;
+}
+
+Baker::~Baker() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+}
+
+std::vector<Lever> Baker::levers() const {
+    const auto& [scene, geometry, bvh, nodes, volumes] = prepared_;
     const bool paths = scene.render.integrator != minirtc::Integrator::whitted;
     const minirtc::EffectSet effects = minirtc::analyseEffects(scene, geometry, volumes, false, paths);
     std::vector<Lever> levers;
@@ -91,36 +95,49 @@ std::vector<Lever> bakeLevers(const std::string& sceneFile) {
     return levers;
 }
 
-bool asksForWhitted(const std::string& sceneFile) {
-    minirtc::Diagnostics diagnostics;
-    return minirtc::loadScene(sceneFile, diagnostics).render.integrator == minirtc::Integrator::whitted;
-}
-
-Baker::Baker(std::string sceneFile, bool onlyDefault) : sceneFile_(std::move(sceneFile)), onlyDefault_(onlyDefault) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "minirt-cost-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error(pattern + ": cannot be made; is there room for temporary files?");
-    folder_ = pattern;
-}
-
-Baker::~Baker() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string Baker::blobOf(const std::vector<Lever>& levers, const Configuration& configuration) {
-    minirtc::BakeOptions options;
+Baker::Wish Baker::wishOf(const std::vector<Lever>& levers, const Configuration& configuration) const {
+    Wish wish{{}, integrators_};
     for (size_t i = 0; i < levers.size(); ++i)
         if (levers[i].kind == LeverKind::baked && configuration[i] != levers[i].initial)
-            options.levers[levers[i].name] = levers[i].settings[configuration[i]].name;
-    std::string& blob = blobs_[options.levers];
-    if (!blob.empty()) return blob;
-    options.scene = sceneFile_;
-    options.output = (folder_ / (std::to_string(blobs_.size()) + ".mrt")).string();
-    options.onlyDefault = onlyDefault_;
-    options.quiet = true;
-    const SilencedErrors silenced(!options.levers.empty());
-    minirtc::bake(options);
-    return blob = options.output;
+            wish.settings[levers[i].name] = levers[i].settings[configuration[i]].name;
+    const minirt_integrator one = renderDesc(levers, configuration).integrator;
+    if (!wish.settings.empty() && one != MINIRT_INTEGRATOR_SCENE) wish.integrators = {integratorOf(one)};
+    return wish;
+}
+
+std::vector<std::string> Baker::blobsOf(const std::vector<Lever>& levers, const std::vector<Configuration>& configurations) {
+    std::vector<Wish> wishes;
+    std::vector<Wish> fresh;
+    for (const Configuration& configuration : configurations) {
+        wishes.push_back(wishOf(levers, configuration));
+        if (blobs_.try_emplace(wishes.back()).second) fresh.push_back(wishes.back());
+    }
+    bake(fresh);
+    std::vector<std::string> paths;
+    for (const Wish& wish : wishes) paths.push_back(blobs_.at(wish));
+    return paths;
+}
+
+void Baker::bake(const std::vector<Wish>& wishes) {
+    std::vector<minirtc::Variant> variants;
+    std::vector<minirtc::KernelJob> jobs;
+    for (const Wish& wish : wishes) {
+        minirtc::Choices choices;
+        choices.levers = wish.settings;
+        variants.push_back(minirtc::chooseVariant(prepared_, integrators_, choices));
+        for (minirtc::KernelJob& job : minirtc::kernelJobs(variants.back(), wish.integrators)) jobs.push_back(std::move(job));
+    }
+    compiler_.compile(jobs);
+    for (size_t i = 0; i < wishes.size(); ++i) {
+        const std::vector<minirtc::Kernel> kernels = compiler_.compile(minirtc::kernelJobs(variants[i], wishes[i].integrators));
+        std::string& content = contents_[minirtc::contentOf(variants[i], kernels)];
+        if (content.empty()) {
+            content = (folder_ / (std::to_string(contents_.size()) + ".mrt")).string();
+            const std::vector<uint8_t> blob = minirtc::finishBlob(prepared_, variants[i], kernels);
+            minirtc::writeFile(content, blob.data(), blob.size());
+        }
+        blobs_.at(wishes[i]) = content;
+    }
 }
 
 }  // namespace cost

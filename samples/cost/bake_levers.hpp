@@ -1,37 +1,53 @@
 // The levers of the bake: the scene is baked once more for each choice of them.
 #pragma once
+#include <prepared_scene.hpp>
+
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "lever.hpp"
+#include "render_levers.hpp"
 
 namespace cost {
 
-/// All of them, with the reason of those that can change nothing in this scene. Throws std::exception.
-std::vector<Lever> bakeLevers(const std::string& sceneFile);
+/// What a setting of a lever of the bake is called in a sentence, such as "exact Fresnel".
+std::string wordsOf(const std::string& lever, const std::string& setting);
 
-/// True where Whitted's tracer is what the scene asks for, and so the only integrator that is of use.
-bool asksForWhitted(const std::string& sceneFile);
-
-/// Bakes into a folder of its own, which goes away with the object.
+/// A scene file's levers and blobs, in a folder of its own that goes away with the object. What no lever changes is made once.
 class Baker {
 public:
-    /// `onlyDefault`: kernels of the scene's own integrator alone, which is several times as fast.
-    Baker(std::string sceneFile, bool onlyDefault);
+    /// Prints the scene's warnings. Throws std::exception.
+    explicit Baker(const std::string& sceneFile);
     ~Baker();
     Baker(const Baker&) = delete;
     Baker& operator=(const Baker&) = delete;
 
-    /// The blob of a configuration of `levers`; baked when it is asked for first. Throws std::exception.
-    std::string blobOf(const std::vector<Lever>& levers, const Configuration& configuration);
+    /// All levers of the bake, with the reason of those that can change nothing in this scene.
+    std::vector<Lever> levers() const;
+
+    /// The blobs of configurations of `levers`; those not asked for before are baked, their kernels side by side. Where two hold the same kernels for the same
+    /// data, they are one. Without levers of the rendering: of all integrators that are of use. Throws std::exception.
+    std::vector<std::string> blobsOf(const std::vector<Lever>& levers, const std::vector<Configuration>& configurations);
 
 private:
-    std::string sceneFile_;
-    bool onlyDefault_;
+    struct Wish {
+        minirtc::LeverSettings settings;
+        std::vector<minirtc::Integrator> integrators;
+        bool operator<(const Wish& other) const {
+            return settings != other.settings ? settings < other.settings : integrators < other.integrators;
+        }
+    };
+
+    Wish wishOf(const std::vector<Lever>& levers, const Configuration& configuration) const;
+    void bake(const std::vector<Wish>& wishes);
+
+    minirtc::PreparedScene prepared_;
+    minirtc::KernelCompiler compiler_{0};
+    std::vector<minirtc::Integrator> integrators_;  // Whitted's alone where the scene asks for it, else all
     std::filesystem::path folder_;
-    std::map<std::map<std::string, std::string>, std::string> blobs_;
+    std::map<Wish, std::string> blobs_;
+    std::map<std::vector<uint32_t>, std::string> contents_;  // by what a blob holds, as far as levers change it
 };
 
 }  // namespace cost

@@ -88,8 +88,10 @@ Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<M
         random ? noisyErrors(cheap, accurate, singles[at].shift, levers[lever].kind == LeverKind::samples ? 1 : moreSamples)
         : changesSamples(levers[lever].kind) ? sampledErrors(cheap, accurate)
                                              : deterministicErrors(cheap, accurate);
+    // Of few pixels chance alone could be the difference, but that more samples have less noise needs no proof.
+    const bool fewerSamples = levers[lever].kind == LeverKind::samples && errors.cheap > (1 + kNoticeable) * errors.accurate;
     double error = 0;
-    if (errors.differ) {
+    if (errors.differ || fewerSamples) {
         c.removed = 1 - errors.accurate / std::max(errors.cheap, 1e-30);
         c.change = c.removed >= 0 ? ErrorChange::less : ErrorChange::more;
         c.wrongPixels = std::max(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels, 0.0);
@@ -163,7 +165,7 @@ std::string sentence(const Lever& lever, const Comparison& c) {
 }
 
 std::string idleSentence(const Lever& lever) {
-    return lever.title + " changes nothing on this scene: " + lever.idle + ".";
+    return lever.title + " is left alone: " + lever.idle + ".";
 }
 
 std::string verdict(const Comparison& c) {

@@ -2,6 +2,7 @@
 #include <ctime>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include "../common/command_line.hpp"
 #include "bake_levers.hpp"
@@ -36,14 +37,15 @@ void addOptions(CLI::App& app, Options& o) {
         ->check(CLI::Range(1u, 4096u));
     app.add_option("--repeats", o.study.repeats, "How often each picture is rendered, in turn with the others (default: 5)")
         ->check(CLI::Range(1u, 1000u));
-    app.add_option("--seconds", o.study.seconds, "How long it may take, about (default: 300)")->check(CLI::PositiveNumber);
+    app.add_option("--seconds", o.study.seconds, "How long it may take, bakes and pipelines included (default: 300). Each setting is baked and rendered three times in any case, in "
+                   "pictures of 64x48 where time is short")->check(CLI::PositiveNumber);
     app.add_option("--combinations", o.study.combinations, "Most combinations of levers that are tried (default: 12)")
         ->check(CLI::Range(size_t{0}, size_t{100}));
     app.add_option("--budget-ms", o.study.budgetMs,
                    "Name the settings with the least error whose picture takes no longer than this")
         ->check(CLI::PositiveNumber);
     app.add_flag("--hard-cases", o.hardCases,
-                 "Also run the scenes in which rounding shows, with each setting of the levers (minutes)");
+                 "Also run the scenes in which rounding shows, with each setting of the levers (a minute or two, beyond --seconds)");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
 }
 
@@ -68,16 +70,18 @@ cost::Report run(const Options& options) {
     report.baked = endsWith(options.scene, ".json");
     cost::StudyOptions study = options.study;
     if (!options.size.empty()) parseSize(options.size, study.width, study.height);
+    cost::Progress progress;
     Device device(options.device);
     report.device = device.info();
-    cost::Progress progress;
-    cost::Baker baker(options.scene, report.baked && cost::asksForWhitted(options.scene));
-    const std::vector<cost::Lever> baked = report.baked ? cost::bakeLevers(options.scene) : std::vector<cost::Lever>();
-    cost::Scenes scenes(device, baked, [&](const cost::Configuration& configuration) {
-        return report.baked ? baker.blobOf(baked, configuration) : options.scene;
-    });
-    const cost::BlobFacts facts =
-        cost::readBlobFacts(report.baked ? baker.blobOf(baked, initialConfiguration(baked)) : options.scene);
+    std::unique_ptr<cost::Baker> baker;
+    if (report.baked) baker = std::make_unique<cost::Baker>(options.scene);
+    const std::vector<cost::Lever> baked = report.baked ? baker->levers() : std::vector<cost::Lever>();
+    const auto blobsOf = [&](const std::vector<cost::Lever>& levers, const std::vector<cost::Configuration>& configurations) {
+        return report.baked ? baker->blobsOf(levers, configurations)
+                            : std::vector<std::string>(configurations.size(), options.scene);
+    };
+    cost::Scenes scenes(device, baked, blobsOf);
+    const cost::BlobFacts facts = cost::readBlobFacts(blobsOf(baked, {initialConfiguration(baked)}).front());
     cost::study(scenes, facts, report.device.is_cpu != 0, study, progress, report);
     if (options.hardCases) report.hardCases = cost::runHardCases(device, progress);
     return report;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 
 namespace cost {
@@ -12,9 +14,6 @@ constexpr uint32_t kReferenceSeed = 1u << 20;
 
 /// The reference's samples of Whitted's tracer are none of those that are judged by it. A power of two, as the sequence asks for.
 constexpr uint32_t kReferenceFirstSample = 1u << 14;
-
-/// Fewer say nothing about how far times spread.
-constexpr uint32_t kLeastRounds = 3;
 
 /// The scene's own settings, which all others are compared with, have another turn after so many of them.
 constexpr size_t kOwnEvery = 6;
@@ -70,17 +69,16 @@ Picture Measurer::render(const Configuration& configuration, uint32_t seed, uint
     minirt_stats stats = {};
     desc.stats = &stats;
     Picture picture{width_, height_, std::vector<float>(size_t{width_} * height_ * 4)};
-    scenes_.device().require(minirt_render(scenes_.load(configuration).scene, &desc, picture.rgba.data()), "");
+    const LoadedScene& loaded = scenes_.load(configuration);
+    loaded.device->require(minirt_render(loaded.scene, &desc, picture.rgba.data()), "");
     ms = stats.gpu_ms;
-    pipelineMs_[configuration] = stats.pipeline_ms;
     return picture;
 }
 
-double Measurer::warmUp(const Configuration& configuration) {
+double Measurer::warmUp(const Configuration& configuration, int times) {
     double ms = 0;
     try {
-        render(configuration, 0, 0, 1, ms);
-        render(configuration, 0, 0, 1, ms);
+        for (int i = 0; i < times; ++i) render(configuration, 0, 0, 1, ms);
     } catch (const std::exception& error) {
         failures_.push_back({configuration, error.what()});
         return 0;
@@ -90,7 +88,7 @@ double Measurer::warmUp(const Configuration& configuration) {
 
 void Measurer::makeReference(const Configuration& configuration, double seconds, uint32_t least) {
     constexpr uint32_t kMost = 1u << 13;
-    const double msPerSample = warmUp(configuration);
+    const double msPerSample = warmUp(configuration, 2);
     if (msPerSample <= 0) throw std::runtime_error("the reference cannot be rendered: " + failures_.back().reason);
     const uint32_t half = std::clamp(floorToPowerOfTwo(seconds * 500 / msPerSample), least, kMost);
     const size_t integrator = findLever(scenes_.levers(), LeverKind::integrator);
@@ -108,10 +106,23 @@ void Measurer::makeReference(const Configuration& configuration, double seconds,
 }
 
 const Picture& Measurer::accurateAt(uint32_t samples) {
-    Picture& picture = reference_.atSamples[samples];
+    const auto next = reference_.atSamples.lower_bound(samples);
+    if (next != reference_.atSamples.end() && next->first == samples) return next->second;
+    const uint32_t known = next == reference_.atSamples.begin() ? 0 : std::prev(next)->first;
     double ms = 0;
-    if (picture.rgba.empty()) picture = render(reference_.configuration, 0, 0, samples, ms);
-    return picture;
+    Picture picture = render(reference_.configuration, 0, known, samples - known, ms);
+    if (known > 0) {
+        const float share = static_cast<float>(known) / static_cast<float>(samples);
+        picture = scaled(std::move(picture), 1 - share);
+        accumulate(picture, scaled(std::prev(next)->second, share));
+    }
+    return reference_.atSamples[samples] = std::move(picture);
+}
+
+void Measurer::takeAccuratePictures(const std::vector<Configuration>& configurations) {
+    std::set<uint32_t> counts;  // ascending, so that each goes on from the one before
+    for (const Configuration& c : configurations) counts.insert(samplesOf(scenes_.levers(), c));
+    for (const uint32_t count : counts) accurateAt(count);
 }
 
 double Measurer::add(Tally& tally, const Configuration& configuration, uint32_t round) {
@@ -154,19 +165,21 @@ Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Confi
         m.sameSamples = compare(m.picture, accurateAt(samplesOf(scenes_.levers(), configuration)));
         m.bias = {m.sameSamples.relMse, 0};
     }
-    m.pipelineMs = pipelineMs_[configuration];
+    m.pipelineMs = scenes_.load(configuration).pipelineMs;
     m.kernelBytes = scenes_.load(configuration).kernelBytes;
     return m;
 }
 
 std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& configurations, uint32_t repeats, double deadline) {
+    scenes_.prepare(configurations);
     std::vector<Configuration> running;
     for (const Configuration& c : configurations) {
         progress_.show("warming up", running.size(), configurations.size());
-        if (warmUp(c) > 0) running.push_back(c);
+        if (warmUp(c, 1) > 0) running.push_back(c);
     }
     if (running.empty() || running.front() != configurations.front())
         throw std::runtime_error("the scene's own settings cannot be rendered: " + failures_.front().reason);
+    if (!reference_.random) takeAccuratePictures(running);
     std::vector<Tally> tallies(running.size());
     std::vector<std::vector<Timing>> timings(running.size());
     uint32_t round = 0;

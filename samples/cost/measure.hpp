@@ -13,6 +13,9 @@
 
 namespace cost {
 
+/// Fewer say nothing about how far times spread.
+constexpr uint32_t kLeastRounds = 3;
+
 /// The accurate picture, as the mean of two halves whose noise is independent.
 struct Reference {
     Configuration configuration;
@@ -33,7 +36,7 @@ struct Measurement {
     Estimate bias;    // part of relMSE that more samples do not remove
     Estimate shift;   // of random pictures: the same against the scene's own settings, where like random numbers tell small ones
     Errors sameSamples;      // Whitted's: against the reference's settings at the same samples, which is the lever's own doing
-    double pipelineMs = 0;   // creation of the pipelines and an empty first dispatch
+    double pipelineMs = 0;   // LoadedScene::pipelineMs
     size_t kernelBytes = 0;  // of SPIR-V
     Picture picture;         // the mean of the repeats
 };
@@ -52,14 +55,15 @@ public:
     Measurer(Scenes& scenes, uint32_t width, uint32_t height, Progress& progress)
         : scenes_(scenes), width_(width), height_(height), progress_(progress) {}
 
-    /// Milliseconds a sample, pipelines not included; 0 and a reason in failures() where it cannot be rendered.
-    double warmUp(const Configuration& configuration);
+    /// Milliseconds of the last of `times` pictures with one sample; 0 and a reason in failures() where it cannot be rendered. The first one teaches the
+    /// runtime how much fits a dispatch.
+    double warmUp(const Configuration& configuration, int times);
 
     /// As many samples as fit `seconds`, at least `least` a half. Throws std::runtime_error.
     void makeReference(const Configuration& configuration, double seconds, uint32_t least);
     const Reference& reference() const { return reference_; }
 
-    /// Renders all of them in turn, in rounds, `repeats` times or until `deadline` of the progress's clock has passed, but three times if that many are asked for.
+    /// Renders all of them in turn, in rounds, `repeats` times or until `deadline` of the progress's clock has passed, but kLeastRounds times if that many are asked for.
     /// The first one is what the others are compared with. What failed is left out.
     std::vector<Measurement> measure(const std::vector<Configuration>& configurations, uint32_t repeats, double deadline);
 
@@ -72,13 +76,13 @@ private:
     double add(Tally& tally, const Configuration& configuration, uint32_t round);
     Measurement evaluate(const Tally& tally, const Tally& own, const Configuration& configuration);
     const Picture& accurateAt(uint32_t samples);
+    void takeAccuratePictures(const std::vector<Configuration>& configurations);
 
     Scenes& scenes_;
     uint32_t width_, height_;
     Progress& progress_;
     Reference reference_;
     std::vector<Failure> failures_;
-    std::map<Configuration, double> pipelineMs_;
 };
 
 }  // namespace cost

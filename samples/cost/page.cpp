@@ -57,8 +57,9 @@ std::string chip(const Comparison& c) {
 std::vector<size_t> pictured(const Report& report) {
     constexpr size_t kMost = 14;
     std::vector<size_t> chosen = {0};
-    for (const Comparison& c : report.comparisons)
-        if (c.change != ErrorChange::none && chosen.size() <= kMost) chosen.push_back(c.measurement);
+    for (const bool leading : {true, false})
+        for (const Comparison& c : report.comparisons)
+            if (c.leading == leading && c.change != ErrorChange::none && chosen.size() <= kMost) chosen.push_back(c.measurement);
     return chosen;
 }
 
@@ -140,8 +141,9 @@ std::string leversSection(const Report& report) {
     for (const Failure& f : report.failures)
         items += element("li", "", "<span class=\"chip either\">failed</span>" + element("span", "", escaped(f.reason)));
     const std::string key =
-        "<b>keep</b>: worth its time. <b>spare</b>: costs time for nothing. <b>trade</b>: more accurate, but slower by more than "
-        "that. <b>either</b>: no difference.";
+        "<b>keep</b>: costs no time, or the error falls by a larger factor than the time grows. <b>trade</b>: more accurate, but the "
+        "time grows by the larger factor. <b>spare</b>: costs time for nothing. <b>either</b>: no difference. How to set each: "
+        "<code>minirtc levers</code>.";
     return element("h2", "", "Each lever, the most useful first") + element("ul", "class=\"levers\"", items) +
            element("p", "class=\"soft\"", key);
 }
@@ -241,18 +243,18 @@ std::string hardCasesSection(const Report& report) {
     std::string rows;
     for (const HardCases& row : report.hardCases) {
         std::string broken;
-        for (const std::string& one : row.broken) broken += (broken.empty() ? "" : "<br>") + escaped(one);
-        rows += element("tr", "",
-                        cell(std::to_string(row.held) + " of " + std::to_string(row.all)) + cell(escaped(row.settings)) +
-                            element("td", "class=\"words\"", broken));
+        for (const std::string& one : row.broken) broken += element("li", "", escaped(one));
+        const std::string line = "<b class=\"held\">" + std::to_string(row.held) + "</b>" + escaped(row.settings);
+        rows += broken.empty() ? element("p", "", line)
+                               : element("details", "", element("summary", "", line) + element("ul", "", broken));
     }
+    const HardCases& defaults = report.hardCases.front();
+    const std::string held = std::to_string(defaults.held) + " of " + std::to_string(defaults.all);
     const std::string text =
-        "Small scenes in which rounding shows, each with a figure and its bound: what this scene may not show, another one will.";
-    return element("h2", "", "Hard cases") + element("p", "", text) +
-           element("div", "class=\"scroll\" tabindex=\"0\"",
-                   element("table", "",
-                           element("thead", "", "<tr><th>held</th><th>Settings</th><th>broken</th></tr>") +
-                               element("tbody", "", rows)));
+        " are held by the default settings: small scenes in which rounding shows, each with a figure and its bound. What this scene "
+        "may not show, another one will. Below, how many each setting alone holds, and which it breaks.";
+    return element("h2", "", "Hard cases") + element("p", "", "<b>" + held + "</b>" + text) +
+           element("div", "class=\"card cases\"", rows);
 }
 
 std::string methodSection(const Report& report) {
@@ -288,8 +290,11 @@ std::string methodSection(const Report& report) {
                         "a driver that caches them makes it smaller.");
     if (report.samples() < report.sceneSamples)
         text += element("p", "",
-                        "Measured with " + std::to_string(report.samples()) + " samples a pixel instead of the scene's " +
+                        "Measured with " + std::to_string(report.samples()) + (report.samples() == 1 ? " sample" : " samples") + " a pixel instead of the scene's " +
                             std::to_string(report.sceneSamples) + ", to end in time.");
+    text += element("p", "",
+                    "Of " + number(report.seconds) + " s " + number(report.prepareSeconds) + " s went into baking and into the pipelines of " +
+                        std::to_string(report.pipelines) + " variants of the scene, before the first picture.");
     if (!report.baked)
         text += element("p", "", "From a blob only levers of the rendering can move; those of the bake need the scene file.");
     return element("h2", "", "How this was measured") + text;

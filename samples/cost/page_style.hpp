@@ -48,8 +48,10 @@ table { border-collapse: collapse; font-size: .86rem; width: 100%; font-variant-
 th, td { padding: .35rem .6rem; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; } tbody tr:last-child td { border-bottom: 0; }
 th:nth-child(2), td:nth-child(2) { text-align: left; white-space: normal; min-width: 11rem; }
-td.words { text-align: left; white-space: normal; min-width: 16rem; }
 td.front { font-weight: 700; color: var(--front); }
+.cases > * { margin: 0; padding: .35rem .4rem; } .cases > * + * { border-top: 1px solid var(--rule); }
+.cases > p { padding-left: 1.5rem; } .cases .held { display: inline-block; min-width: 2.2em; }
+.cases ul { margin: .2rem 0; padding-left: 2.2rem; font-size: .88rem; color: var(--soft); }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: .4rem; margin: .4rem 0 1.2rem; }
 .pair p { grid-column: 1 / -1; margin: 0; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 0 1.4rem; }

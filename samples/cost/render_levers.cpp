@@ -100,8 +100,7 @@ Lever integratorLever(const BlobFacts& facts, minirt_integrator own) {
     if (own == MINIRT_INTEGRATOR_WHITTED) {
         add(own, "whitted", "Whitted's tracer");
         lever.idle =
-            "the scene asks for Whitted's tracer; path tracers compute other light, which is no more accurate picture of the "
-            "same";
+            "the scene asks for Whitted's tracer, and what path tracers compute is other light, not the same more accurately";
         return lever;
     }
     const auto addPath = [&] { add(MINIRT_INTEGRATOR_PATH, "path", "the path tracer as one kernel"); };

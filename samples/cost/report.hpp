@@ -22,7 +22,9 @@ struct Report {
     uint32_t width = 0, height = 0;
     uint32_t sceneSamples = 0;  // the scene's own; those measured with may be fewer
     bool baked = false;         // from a scene file; else from a blob, of which only render-time levers move
-    double seconds = 0;         // that it took
+    double seconds = 0;         // that it took, of which
+    double prepareSeconds = 0;  // went before the first picture: reading the scene, bakes and pipelines
+    size_t pipelines = 0;       // of so many variants of the scene
     std::vector<Lever> levers;
     Reference reference;
     std::vector<Measurement> measurements;  // the scene's own settings, each lever alone, then combinations

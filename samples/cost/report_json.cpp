@@ -87,7 +87,8 @@ std::string reportJson(const Report& report) {
     Json json = {{"scene", report.scene},        {"command", report.command},      {"date", report.date},
                  {"device", report.device.name}, {"driver", report.device.driver}, {"width", report.width},
                  {"height", report.height},      {"samples", report.samples()},    {"scene_samples", report.sceneSamples},
-                 {"seconds", report.seconds},    {"baked", report.baked}};
+                 {"seconds", report.seconds},    {"prepare_seconds", report.prepareSeconds},
+                 {"baked", report.baked}};
     json["definitions"] = {{"relmse_epsilon", kRelMseEpsilon}, {"wrong_pixel_steps", kUnseenSteps}};
     json["reference"] = {{"settings", settingsJson(report.levers, report.reference.configuration)},
                          {"samples", report.reference.samples},

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "../common/device.hpp"
@@ -9,37 +10,59 @@
 
 namespace cost {
 
-/// A blob on the device for one integrator: pipelines stay when others render in between.
+/// How many devices make pipelines side by side: each takes a core, and memory for its scenes.
+size_t mostDevices();
+
+/// A blob on a device for one integrator: pipelines stay when others render in between.
 struct LoadedScene {
+    const Device* device = nullptr;
     minirt_scene* scene = nullptr;
     size_t kernelBytes = 0;
+    double pipelineMs = 0;  // creation of the pipelines and an empty first dispatch, beside those of other scenes
+    std::string failure;    // why it cannot be rendered, or ""
 };
 
-/// Loads blobs when a configuration first asks for them, and unloads them with itself; the device must live longer.
+/// Loads blobs and makes their pipelines when a configuration first asks for them, and unloads them with itself; `first` must live longer. Of several at once
+/// pipelines are made side by side, each of these on a device of its own, since a device does one thing at a time.
 class Scenes {
 public:
-    /// `blobOf` gives the blob's path of a configuration and may bake it.
-    using BlobOf = std::function<std::string(const Configuration&)>;
+    /// Gives the paths of the configurations' blobs, and may bake them.
+    using BlobsOf = std::function<std::vector<std::string>(const std::vector<Lever>&, const std::vector<Configuration>&)>;
 
-    Scenes(Device& device, std::vector<Lever> levers, BlobOf blobOf)
-        : device_(device), levers_(std::move(levers)), blobOf_(std::move(blobOf)) {}
+    Scenes(Device& first, std::vector<Lever> levers, BlobsOf blobsOf)
+        : first_(first), levers_(std::move(levers)), blobsOf_(std::move(blobsOf)) {}
     ~Scenes();
     Scenes(const Scenes&) = delete;
     Scenes& operator=(const Scenes&) = delete;
 
-    /// Throws std::runtime_error where it cannot be baked or loaded.
+    /// Makes ready what of these is not. Throws std::runtime_error where one cannot be baked or loaded.
+    void prepare(const std::vector<Configuration>& configurations);
+
+    /// Throws std::runtime_error where it cannot be baked, loaded or rendered.
     const LoadedScene& load(const Configuration& configuration);
 
-    Device& device() { return device_; }
+    /// Whether two configurations are rendered by the same kernels from the same data. Throws as load does.
+    bool share(const Configuration& a, const Configuration& b);
+
+    /// How many were made ready.
+    size_t count() const { return loaded_.size(); }
+
     const std::vector<Lever>& levers() const { return levers_; }
     /// Takes the table's place: as many levers in the same order, those of the bake unchanged.
     void setLevers(std::vector<Lever> levers) { levers_ = std::move(levers); }
 
 private:
-    Device& device_;
+    using Key = std::pair<std::string, minirt_integrator>;
+
+    std::vector<Key> keysOf(const std::vector<Configuration>& configurations) const;
+    const LoadedScene& at(const Configuration& configuration);
+    Device& device(size_t number);
+
+    Device& first_;
+    std::vector<std::unique_ptr<Device>> others_;
     std::vector<Lever> levers_;
-    BlobOf blobOf_;
-    std::map<std::pair<std::string, minirt_integrator>, LoadedScene> loaded_;
+    BlobsOf blobsOf_;
+    std::map<Key, LoadedScene> loaded_;
 };
 
 }  // namespace cost

@@ -10,10 +10,11 @@
 namespace cost {
 namespace {
 
-// Shares of the time, in the order in which they are spent; bakes and pipelines get the rest.
-constexpr double kReferenceShare = 0.3;
-constexpr double kSinglesShare = 0.4;
+// Shares of the time that bakes and pipelines leave, in the order in which they are spent; combinations get the rest.
+constexpr double kReferenceShare = 0.25;
+constexpr double kSinglesShare = 0.5;
 constexpr double kPixels = 256.0 * 192.0;
+constexpr double kLeastPixels = 64.0 * 48.0;
 
 /// The scene's shape with about `pixels`.
 void setSize(const minirt_scene_desc& scene, double pixels, Report& report) {
@@ -28,35 +29,91 @@ std::vector<Lever> allLevers(const std::vector<Lever>& baked, const BlobFacts& f
     return levers;
 }
 
-/// Makes the picture smaller, then takes fewer samples than the scene's, until every lever gets its repeats in time. Returns the samples.
-uint32_t fitWork(const std::vector<Lever>& levers, double msPerSample, const StudyOptions& options,
-                 const minirt_scene_desc& scene, Report& report) {
+/// What the pictures of a study take, in seconds, by the samples of the scene's own settings.
+struct Work {
+    double perSample = 0;  // what grows with them
+    double once = 0;       // what does not
+
+    double seconds(double samples) const { return perSample * samples + once; }
+    double samplesIn(double seconds) const { return (seconds - once) / perSample; }
+};
+
+uint32_t leastOfReference(uint32_t samples) {
+    return std::max(4u, 2 * samples);
+}
+
+/// Of each lever alone and of the reference, from what a sample takes with the scene's own and with the most accurate settings.
+Work workOf(size_t settings, uint32_t repeats, double ownMs, double bestMs) {
     constexpr double kSamplesLever = 6.75;  // a quarter, half, two and four times as many
-    constexpr uint32_t kEnough = 4;         // samples worth a smaller picture
-    constexpr double kSmallest = 0.25;
-    const double pictures = static_cast<double>(oneAtATime(levers).size()) + kSamplesLever;
-    double allowed = options.seconds * 1000 * kSinglesShare / (msPerSample * pictures * options.repeats);
+    constexpr double kReference = 4 + 4;    // at least twice as many in both of its halves, and at the samples of each setting
+    const auto n = static_cast<double>(settings);
+    return {((n + kSamplesLever) * repeats * ownMs + kReference * bestMs) / 1000, (n * ownMs + 4 * bestMs) / 1000};
+}
+
+/// Makes the picture smaller, then takes fewer samples than the scene's, until `work` fits `seconds`. Returns the samples.
+uint32_t fitWork(const Work& work, double seconds, const StudyOptions& options, const minirt_scene_desc& scene, Report& report) {
+    constexpr uint32_t kEnough = 4;  // samples worth a smaller picture
     const uint32_t wanted = options.samples ? options.samples : std::min(scene.samples, kEnough);
-    if (!options.width && allowed < wanted) {
-        const double scale = std::max(allowed / wanted, kSmallest);
+    double scale = 1;
+    if (!options.width) {
+        scale = std::clamp(seconds / work.seconds(wanted), kLeastPixels / kPixels, 1.0);
         setSize(scene, kPixels * scale, report);
-        allowed /= scale;
     }
     if (options.samples) return options.samples;
+    const double allowed = work.samplesIn(seconds / scale);
     uint32_t samples = scene.samples;
     while (samples > allowed && samples > 1) samples = samples % 2 ? samples - 1 : samples / 2;
     return samples;
 }
 
+/// A lever whose settings all end in the same kernels cannot change anything.
+void findIdle(Scenes& scenes) {
+    std::vector<Lever> levers = scenes.levers();
+    const Configuration own = initialConfiguration(levers);
+    for (size_t i = 0; i < levers.size(); ++i) {
+        if (levers[i].kind != LeverKind::baked || !levers[i].idle.empty()) continue;
+        bool same = true;
+        for (size_t s = 0; s < levers[i].settings.size(); ++s) same = same && scenes.share(own, with(own, i, s));
+        if (!same) continue;
+        levers[i].idle = "the kernels are the same with all of its settings";
+        levers[i].best = levers[i].initial;
+    }
+    scenes.setLevers(std::move(levers));
+}
+
+/// All blobs and pipelines that the reference and each lever alone need.
+void prepareSingles(Scenes& scenes, Progress& progress) {
+    std::vector<Configuration> configurations = oneAtATime(scenes.levers());
+    configurations.push_back(bestConfiguration(scenes.levers()));
+    progress.show("baking, pipelines", 0, configurations.size());
+    scenes.prepare(configurations);
+    findIdle(scenes);
+}
+
+/// Chooses the size of the picture, and how many samples the scene's own settings take.
+uint32_t chooseWork(Scenes& scenes, const BlobFacts& facts, const StudyOptions& options, Progress& progress, Report& report) {
+    setSize(facts.scene, kPixels, report);
+    if (options.width) report.width = options.width, report.height = options.height;
+    Measurer measurer(scenes, report.width, report.height, progress);
+    const std::vector<Lever>& levers = scenes.levers();
+    const double ownMs = std::max(measurer.warmUp(initialConfiguration(levers), 2), 1e-3);
+    const double bestMs = std::max(measurer.warmUp(bestConfiguration(levers), 2), ownMs);
+    const Work work = workOf(oneAtATime(levers).size(), options.repeats, ownMs, bestMs);
+    const double left = (options.seconds - progress.seconds()) * (kReferenceShare + kSinglesShare);
+    return fitWork(work, std::max(left, 0.0), options, facts.scene, report);
+}
+
 /// Measured beside the scene's own settings again: what these took then and now tells how the device's speed has changed.
-void addCombinations(Measurer& measurer, const StudyOptions& options, const Progress& progress, double deadline, Report& report) {
-    const double msEach = report.measurements.front().ms.median * options.repeats * 1.5;  // more samples come with some of them
-    const auto fitting = static_cast<size_t>(std::max((deadline - progress.seconds()) * 1000 / msEach, 4.0));
+void addCombinations(Measurer& measurer, const StudyOptions& options, const Progress& progress, Report& report) {
+    // More samples come with some of them, and each with a blob of its own.
+    const double each = report.prepareSeconds / static_cast<double>(report.pipelines) +
+                        report.measurements.front().ms.median * options.repeats * 1.5 / 1000;
+    const auto fitting = static_cast<size_t>(std::max((options.seconds - progress.seconds()) / each, 0.0));
     std::vector<Configuration> configurations =
         combinations(report.levers, report.measurements, std::min(options.combinations, fitting));
     if (configurations.empty()) return;
     configurations.insert(configurations.begin(), initialConfiguration(report.levers));
-    std::vector<Measurement> found = measurer.measure(configurations, options.repeats, deadline);
+    std::vector<Measurement> found = measurer.measure(configurations, options.repeats, options.seconds);
     const double faster = report.measurements.front().ms.median / found.front().ms.median;
     for (size_t i = 1; i < found.size(); ++i) {
         Spread& ms = found[i].ms;
@@ -93,24 +150,25 @@ void spendBudget(Scenes& scenes, Measurer& measurer, const StudyOptions& options
 
 void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOptions& options, Progress& progress,
            Report& report) {
-    const std::vector<Lever> baked = scenes.levers();
+    const size_t bakedLevers = scenes.levers().size();
     report.sceneSamples = facts.scene.samples;
-    setSize(facts.scene, kPixels, report);
-    if (options.width) report.width = options.width, report.height = options.height;
-    scenes.setLevers(allLevers(baked, facts, cpuDevice, 4));
-    const double msPerSample =
-        Measurer(scenes, report.width, report.height, progress).warmUp(initialConfiguration(scenes.levers()));
-    const uint32_t samples = fitWork(scenes.levers(), std::max(msPerSample, 1e-3), options, facts.scene, report);
+    scenes.setLevers(allLevers(scenes.levers(), facts, cpuDevice, 4));
+    prepareSingles(scenes, progress);
+    report.prepareSeconds = progress.seconds();
+    report.pipelines = scenes.count();
+    const std::vector<Lever> baked(scenes.levers().begin(), scenes.levers().begin() + static_cast<ptrdiff_t>(bakedLevers));
+    const uint32_t samples = chooseWork(scenes, facts, options, progress, report);
     scenes.setLevers(allLevers(baked, facts, cpuDevice, samples));
     report.levers = scenes.levers();
 
     Measurer measurer(scenes, report.width, report.height, progress);
     const double start = progress.seconds();
-    measurer.makeReference(bestConfiguration(report.levers), options.seconds * kReferenceShare, std::max(4u, 2 * samples));
+    const double left = std::max(options.seconds - start, 0.0);
+    measurer.makeReference(bestConfiguration(report.levers), left * kReferenceShare, leastOfReference(samples));
     report.measurements =
-        measurer.measure(oneAtATime(report.levers), options.repeats, start + options.seconds * (kReferenceShare + kSinglesShare));
+        measurer.measure(oneAtATime(report.levers), options.repeats, start + left * (kReferenceShare + kSinglesShare));
     report.singles = report.measurements.size();
-    addCombinations(measurer, options, progress, start + options.seconds, report);
+    addCombinations(measurer, options, progress, report);
 
     report.reference = measurer.reference();
     std::vector<Tradeoff> points;

@@ -11,12 +11,13 @@ struct HardCase {
     std::string what;
     std::string unit;
     double bound;
-    std::function<double(const Stage&)> figure;
+    std::function<double(Stage&)> figure;
 };
 
 std::vector<HardCase> intersectionCases();
 std::vector<HardCase> originCases();
 std::vector<HardCase> opticsCases();
 std::vector<HardCase> mediaCases();
+std::vector<HardCase> crossingCases();
 
 }  // namespace hard_cases

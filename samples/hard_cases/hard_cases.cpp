@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
+#include <thread>
 
 #include "cases.hpp"
 
@@ -10,26 +12,57 @@ namespace {
 
 std::vector<HardCase> allCases() {
     std::vector<HardCase> all;
-    for (const auto& part : {intersectionCases(), originCases(), opticsCases(), mediaCases()})
+    for (const auto& part : {intersectionCases(), originCases(), opticsCases(), mediaCases(), crossingCases()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
+}
+
+HardCaseResult run(const HardCase& one, const minirtc::LeverSettings& levers, Stage& stage) {
+    HardCaseResult result{one.name, one.what, one.unit, 0, one.bound, ""};
+    stage.set(levers);
+    try {
+        result.figure = one.figure(stage);
+    } catch (const std::exception& error) {
+        result.failure = error.what();
+    }
+    return result;
 }
 
 }  // namespace
 
 std::vector<HardCaseResult> runHardCases(minirt_context* context, const minirtc::LeverSettings& levers, const std::string& only) {
-    const Stage stage(context, levers);
+    minirtc::KernelCompiler compiler(1);
+    Stage stage(context, compiler);
     std::vector<HardCaseResult> results;
-    for (const HardCase& one : allCases()) {
-        if (one.name.find(only) == std::string::npos) continue;
-        HardCaseResult result{one.name, one.what, one.unit, 0, one.bound, ""};
-        try {
-            result.figure = one.figure(stage);
-        } catch (const std::exception& error) {
-            result.failure = error.what();
+    for (const HardCase& one : allCases())
+        if (one.name.find(only) != std::string::npos) results.push_back(run(one, levers, stage));
+    return results;
+}
+
+std::vector<std::vector<HardCaseResult>> runHardCases(const std::vector<minirt_context*>& contexts,
+                                                      const std::vector<minirtc::LeverSettings>& settings,
+                                                      const CaseProgress& progress) {
+    const std::vector<HardCase> cases = allCases();
+    std::vector<std::vector<HardCaseResult>> results(settings.size(), std::vector<HardCaseResult>(cases.size()));
+    minirtc::KernelCompiler compiler(1);
+    std::mutex mutex;
+    size_t next = 0;
+    size_t done = 0;
+    const auto work = [&](minirt_context* context) {
+        Stage stage(context, compiler);
+        std::unique_lock<std::mutex> lock(mutex);
+        while (next < cases.size()) {
+            const size_t i = next++;
+            lock.unlock();
+            for (size_t s = 0; s < settings.size(); ++s) results[s][i] = run(cases[i], settings[s], stage);
+            stage.clear();
+            lock.lock();
+            progress(++done, cases.size());
         }
-        results.push_back(result);
-    }
+    };
+    std::vector<std::thread> threads;
+    for (minirt_context* context : contexts) threads.emplace_back(work, context);
+    for (std::thread& thread : threads) thread.join();
     return results;
 }
 

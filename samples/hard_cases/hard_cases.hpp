@@ -2,6 +2,7 @@
 #pragma once
 #include <minirt.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct HardCaseResult {
 /// hold. `context` must not be rendering.
 std::vector<HardCaseResult> runHardCases(minirt_context* context, const minirtc::LeverSettings& levers,
                                          const std::string& only = "");
+
+/// Called after each case with how many are done and how many there are, by one thread at a time.
+using CaseProgress = std::function<void(size_t done, size_t all)>;
+
+/// Runs every case with each of `settings`, and gives the results of each. A thread a context: contexts of the same device share the work.
+std::vector<std::vector<HardCaseResult>> runHardCases(const std::vector<minirt_context*>& contexts,
+                                                      const std::vector<minirtc::LeverSettings>& settings,
+                                                      const CaseProgress& progress);
 
 size_t countHeld(const std::vector<HardCaseResult>& results);
 

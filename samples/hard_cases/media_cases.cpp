@@ -12,15 +12,8 @@ Json ball(const dvec3& center, double radius, const std::string& material) {
     return {{"sphere", {{"center", at(center)}, {"radius", radius}}}, {"material", material}};
 }
 
-/// The length of a ray from the camera within a ball around 0; 0 where it misses.
-double chord(const View& view, uint32_t x, uint32_t y, double radius) {
-    const dvec3 d = view.direction(x, y);
-    const double nearest = glm::length(view.position - glm::dot(view.position, d) * d);
-    return nearest < radius ? 2 * std::sqrt(radius * radius - nearest * nearest) : 0;
-}
-
 /// A ball of index 1 that takes half of the light in 1 m, before white: Beer's and Lambert's law along each ray.
-double absorption(const Stage& stage) {
+double absorption(Stage& stage) {
     Shot shot;
     shot.view = {{0, 0, 5}, {0, 0, 0}, 30, 64};
     shot.background = 1;
@@ -29,14 +22,14 @@ double absorption(const Stage& stage) {
     shot.objects = {ball(dvec3(0), 1, "grey")};
     const Picture picture = stage.render(shot);
     return largestOf(picture, [&](uint32_t x, uint32_t y) {
-        const double length = chord(shot.view, x, y, 1);
+        const double length = chordOf(shot.view, x, y, 1);
         const bool rim = length > 0 && length < 0.1;  // where the length changes without bound
         return rim ? 0.0 : std::abs(picture.at(x, y) - std::pow(0.5, length));
     });
 }
 
 /// Balls of other glass within a ball that displaces them: their surfaces are hidden, and the picture that of the ball alone.
-double hiddenSurfaces(const Stage& stage) {
+double hiddenSurfaces(Stage& stage) {
     Shot shot;
     shot.view = {{0, 1, 5}, {0, 0, 0}, 30, 64};
     shot.background = 0.2;
@@ -84,7 +77,7 @@ struct Wedge {
 
 /// The edge of a light 20 m behind a wedge, by the index of each channel (KHR_materials_dispersion): the largest angle from it at which a channel is on
 /// the wrong side.
-double dispersion(const Stage& stage) {
+double dispersion(Stage& stage) {
     constexpr double kIndex = 1.7;
     constexpr double kHalfSpread = (kIndex - 1) * 0.025;
     constexpr double kPlane = -20;

@@ -32,7 +32,7 @@ double fresnel(double cosI, double eta) {
 }
 
 /// From in a block of glass towards its face y = 0, before white: of all light only what goes through that face gets into the picture.
-Shot fromInside(const Stage& stage, double index, double degrees, double vfov) {
+Shot fromInside(Stage& stage, double index, double degrees, double vfov) {
     stage.write("block.obj", box({-100, -100, -100}, {100, 0, 100}));
     const double angle = glm::radians(degrees);
     Shot shot;
@@ -45,7 +45,7 @@ Shot fromInside(const Stage& stage, double index, double degrees, double vfov) {
 }
 
 /// Picture's transmittance through a face against Fresnel's equations.
-double reflectanceInside(const Stage& stage) {
+double reflectanceInside(Stage& stage) {
     constexpr double kIndex = 1.5;
     const Shot shot = fromInside(stage, kIndex, 30, 55);
     const Picture picture = stage.render(shot);
@@ -58,7 +58,7 @@ double reflectanceInside(const Stage& stage) {
 }
 
 /// A mirror of glass's reflectance, under white.
-double reflectanceOutside(const Stage& stage) {
+double reflectanceOutside(Stage& stage) {
     Shot shot;
     shot.view = {{0, 3, 5}, {0, 0, 0}, 60, 64};
     shot.background = 1;
@@ -72,7 +72,7 @@ double reflectanceOutside(const Stage& stage) {
 }
 
 /// Rays within 1e-5 radians of the critical angle: how far from it, in sine squared, one goes to the wrong side.
-double criticalAngle(const Stage& stage, double index) {
+double criticalAngle(Stage& stage, double index) {
     const double degrees = glm::degrees(std::asin(1 / index));
     const Shot shot = fromInside(stage, index, degrees, glm::degrees(2e-5));
     const Picture picture = stage.render(shot);
@@ -85,7 +85,7 @@ double criticalAngle(const Stage& stage, double index) {
 }
 
 /// A chequered floor behind a ball: how many pixels differ from the picture without the ball.
-double indexOne(const Stage& stage) {
+double indexOne(Stage& stage) {
     Shot shot;
     shot.view = {{0, 2, 4}, {0, 0.5, 0}, 40, 64};
     shot.background = 0.5;
@@ -101,7 +101,7 @@ double indexOne(const Stage& stage) {
 }
 
 /// Balls and blocks in a white room: clear glass of any index gives back no more than it gets, and no NaN.
-double extremes(const Stage& stage) {
+double extremes(Stage& stage) {
     stage.write("block.obj", box({-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}));
     Shot shot;
     shot.view = {{0.3, 1, 8}, {0, 0, 0}, 35, 64};
@@ -125,7 +125,7 @@ double extremes(const Stage& stage) {
 
 /// Up into a panorama of four columns, in which all of them and the seam meet. Not within a ten thousandth of the pole, where a float's direction has
 /// no certain angle.
-double pole(const Stage& stage) {
+double pole(Stage& stage) {
     // Radiance's format, a row without run lengths: mantissas with the exponent 0.
     const unsigned char columns[] = {64, 192, 192, 64};
     std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
@@ -150,7 +150,7 @@ double pole(const Stage& stage) {
 }
 
 /// A coarse ball of mirrors with smooth normals in a white room: all that it reflects is white, but for what went into it.
-double normalsApart(const Stage& stage) {
+double normalsApart(Stage& stage) {
     stage.write("gem.obj",
                 "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
                 "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
@@ -165,6 +165,38 @@ double normalsApart(const Stage& stage) {
     return percentOf(picture, [&](uint32_t x, uint32_t y) { return picture.at(x, y) != 1; });
 }
 
+/// A lit wall with smooth normals, with and without faces of no area at each of its vertices: how many pixels differ, and NaNs.
+double smoothBesideDegenerates(Stage& stage) {
+    constexpr int kSide = 9;
+    std::string obj;
+    for (int j = 0; j <= kSide; ++j)
+        for (int i = 0; i <= kSide; ++i)
+            obj += "v " + std::to_string(0.2 * i - 0.9) + " " + std::to_string(0.2 * j - 0.9) + " " +
+                   std::to_string(0.1 * ((i * 7 + j * 3) % 5)) + "\n";
+    std::string degenerate;
+    for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) {
+            const std::string a = std::to_string(j * (kSide + 1) + i + 1);
+            const std::string b = std::to_string(j * (kSide + 1) + i + 2);
+            const std::string c = std::to_string((j + 1) * (kSide + 1) + i + 2);
+            const std::string d = std::to_string((j + 1) * (kSide + 1) + i + 1);
+            obj += "f " + a + " " + b + " " + c + "\nf " + a + " " + c + " " + d + "\n";
+            degenerate += "f " + a + " " + a + " " + c + "\n";
+        }
+    Shot shot;
+    shot.view = {{0, 0, 3}, {0, 0, 0}, 30, 64};
+    shot.materials["white"] = {{"model", "phong"}};
+    shot.lights = Json::array({{{"type", "directional"}, {"direction", {-1, -2, -3}}}});
+    shot.objects = {meshOf("wall.obj", "white")};
+    shot.objects[0]["smooth"] = true;
+    stage.write("wall.obj", obj);
+    const Picture plain = stage.render(shot);
+    stage.write("wall.obj", obj + degenerate);
+    const Picture beside = stage.render(shot);
+    return static_cast<double>(beside.stats.nan_pixels) +
+           percentOf(beside, [&](uint32_t x, uint32_t y) { return beside.at(x, y) != plain.at(x, y); });
+}
+
 }  // namespace
 
 std::vector<HardCase> opticsCases() {
@@ -173,15 +205,17 @@ std::vector<HardCase> opticsCases() {
         {"reflectance from outside", "a mirror of index 1.5 at all angles up to 89 degrees", "error", 1e-5, reflectanceOutside},
         {"reflectance from inside", "a face of glass of index 1.5 seen from within", "error", 1e-5, reflectanceInside},
         {"critical angle", "rays in glass of index 1.5 at the critical angle", wrongSide, 8.8e-7,
-         [](const Stage& s) { return criticalAngle(s, 1.5); }},
-        {"critical angle of diamond", "the same for index 2.417", wrongSide, 3.1e-6,
-         [](const Stage& s) { return criticalAngle(s, 2.417); }},
+         [](Stage& s) { return criticalAngle(s, 1.5); }},
+        {"critical angle of diamond", "rays in diamond, of index 2.417, at the critical angle", wrongSide, 3.1e-6,
+         [](Stage& s) { return criticalAngle(s, 2.417); }},
         {"index 1", "a ball of index 1 before a floor, against no ball", "% of pixels that differ", 0, indexOne},
         {"extreme indices", "glass of index 0.25, 1.0001 and 4 in a white room", "radiance over 1, and NaNs", 1e-5, extremes},
         // Texture coordinates to 3e-7 turns, on a slope of 2 a turn, for directions whose angle is known to 2e-4 in the nearest pixel.
         {"pole", "where all columns of a panorama meet overhead", "error, and NaNs", 1e-4, pole},
         {"normals apart", "a mirror whose smooth normals are far from its faces'", "% of rays that went into it", 0,
          normalsApart},
+        {"normals at degenerates", "smooth normals of vertices that faces without area share, against none such",
+         "% of pixels that differ, and NaNs", 0, smoothBesideDegenerates},
     };
 }
 

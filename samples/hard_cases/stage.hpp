@@ -1,14 +1,15 @@
-// From a small scene to its picture: written, baked and rendered, then taken away.
+// From a small scene to its picture: written, baked and rendered.
 #pragma once
 #include <minirt.h>
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "scene.hpp"
+#include "prepared_scene.hpp"
 
 namespace hard_cases {
 
@@ -52,22 +53,42 @@ struct Shot {
     Json lights = Json::array();
 };
 
+/// Renders with one setting of the levers after the other. What these do not change of a scene is made once, and a picture that comes from the same kernels and
+/// data as one before is that one.
 class Stage {
 public:
-    Stage(minirt_context* context, const minirtc::LeverSettings& levers);
+    /// Others may have the same compiler.
+    Stage(minirt_context* context, minirtc::KernelCompiler& compiler);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
+    /// From now on.
+    void set(const minirtc::LeverSettings& levers) { levers_ = levers; }
+    /// Forgets all scenes and pictures.
+    void clear();
+
     /// A file that a scene names.
-    void write(const std::string& name, const std::string& text) const;
+    void write(const std::string& name, const std::string& text);
     /// Throws std::runtime_error with what the compiler or the runtime says.
-    Picture render(const Shot& shot) const;
+    Picture render(const Shot& shot);
 
 private:
+    struct Known {
+        minirtc::PreparedScene scene;
+        std::map<std::vector<uint32_t>, Picture> pictures;  // by minirtc::contentOf
+    };
+
+    Known& prepare(const std::string& text);
+    minirtc::Choices choicesFor(const minirtc::PreparedScene& scene) const;
+    Picture shoot(const std::vector<uint8_t>& blob, const View& view) const;
+
     minirt_context* context_;
+    minirtc::KernelCompiler& compiler_;
     minirtc::LeverSettings levers_;
     std::filesystem::path folder_;
+    std::map<std::string, std::string> files_;
+    std::map<std::pair<std::string, std::map<std::string, std::string>>, Known> known_;  // by the scene and its files
 };
 
 /// Share of pixels for which `is` holds, in percent.

@@ -38,6 +38,12 @@ std::string wall(const Pose& pose, const Grid& grid) {
     return text;
 }
 
+double chordOf(const View& view, uint32_t x, uint32_t y, double radius) {
+    const dvec3 d = view.direction(x, y);
+    const double nearest = glm::length(view.position - glm::dot(view.position, d) * d);
+    return nearest < radius ? 2 * std::sqrt(radius * radius - nearest * nearest) : 0;
+}
+
 Json meshOf(const std::string& file, const std::string& material) {
     return {{"mesh", file}, {"material", material}};
 }

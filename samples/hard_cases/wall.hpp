@@ -28,6 +28,9 @@ struct Grid {
 };
 std::string wall(const Pose& pose, const Grid& grid);
 
+/// The length of a ray from the camera within a ball around 0; 0 where it misses.
+double chordOf(const View& view, uint32_t x, uint32_t y, double radius);
+
 /// A mesh object.
 Json meshOf(const std::string& file, const std::string& material);
 /// The parallelogram between two edges from a corner.
