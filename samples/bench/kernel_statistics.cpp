@@ -149,7 +149,9 @@ std::vector<KernelStatistics> kernelStatistics(const std::string& device, const 
     recorder = {};
     Stage stage(device, blob, instanceFunction);
     stage.load();
-    stage.firstStep();
+    stage.resize(8, 8);
+    minirt_stats ignored = {};
+    stage.render(MINIRT_INTEGRATOR_SCENE, 1, ignored);
     return std::move(recorder.found);
 }
 
