@@ -526,8 +526,8 @@ TEST_CASE("minirt-bench writes what it measured") {
     if (!test::haveDevice()) return;
     const test::TemporaryDir dir;
     const std::string file = (dir.path() / "bench.json").string();
-    const Outcome outcome = run({MINIRT_BENCH, "--knots", "500", "--size", "64x64", "--rounds", "1", "--frames", sampleScene(),
-                                 "--spp", "1", "--json", file});
+    const Outcome outcome = run({MINIRT_BENCH, "--knots", "500,1500", "--size", "64x64", "--rounds", "1", "--frames",
+                                 sampleScene(), "--spp", "1", "--json", file});
     CAPTURE(outcome.err);
     REQUIRE(outcome.exitCode == 0);
     const auto json = nlohmann::json::parse(test::readFile(file));
@@ -538,5 +538,16 @@ TEST_CASE("minirt-bench writes what it measured") {
         CHECK(mesh["rays"][rays]["tracers"]["minirt"]["mrays_per_s"]["median"].get<double>() > 0);
     CHECK(mesh["hierarchies"]["minirt high"]["sah_cost"].get<double>() > 1);
     CHECK(json["scenes"][0]["frames"]["whitted"]["ms_per_sample"]["median"].get<double>() > 0);
-    CHECK(json["scenes"][0]["start"]["cold"]["first_pixel_ms"].get<double>() > 0);
+    if (mesh["rays"]["primary"]["tracers"].contains("Embree robust")) {
+        REQUIRE(json["scaling"].size() == 4);
+        CHECK(json["scaling"][0]["to_triangles"].get<int>() > 1200);
+    }
+    const auto& scene = json["scenes"][0];
+    for (const char* start : {"cold", "second"}) {
+        const double pipeline = scene["start"][start]["pipeline_ms"]["median"].get<double>();
+        CHECK(pipeline > 0);
+        CHECK(scene["start"][start]["process_ms"]["median"].get<double>() > pipeline);
+    }
+    CHECK(scene["load"]["bytes"] == scene["blob_bytes"]);
+    CHECK(scene["load"]["copy_over_load"]["median"].get<double>() > 0);
 }

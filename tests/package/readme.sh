@@ -40,7 +40,7 @@ while read -r subcommand; do
 done < <(grep -oE 'minirtc [a-z]+' README.md | cut -d' ' -f2 | sort -u)
 
 # Options, as written in code, belong to some command.
-all_help=$(help_of minirtc bake; help_of minirtc inspect; help_of minirt-render; help_of minirt-cost; help_of demo; help_of test; cmake --help)
+all_help=$(help_of minirtc bake; help_of minirtc inspect; help_of minirt-render; help_of minirt-cost; help_of minirt-bench; help_of demo; help_of test; cmake --help)
 while read -r option; do
     grep -qe "$option" <<<"$all_help" || fail "no command has $option"
 done < <(grep -oE '(^|[` ])--[a-z][a-z-]+' README.md | grep -oE -- '--[a-z-]+' | grep -vxE -- '--(help|preset|install|build)' | sort -u)
