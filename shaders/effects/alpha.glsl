@@ -11,10 +11,12 @@ bool passesAlpha(vec4 row0, vec4 row2, vec2 b, vec3 origin, vec3 direction) {
     if (flags == 0u) return false;
     float alpha = material.transmit.w;
     if (material.options.y != MINIRT_NONE && corners != MINIRT_NONE) alpha *= sampleRgba(material.options.y, surfaceUv(corners, b)).a;
-    uvec3 ray = floatBitsToUint(direction) + floatBitsToUint(origin) * 0x9e3779b9u;
-    // By its place, as a triangle that was split lies in several slots; faces in one place with one material draw the same.
-    uvec3 triangle = floatBitsToUint(row0.xyz) + floatBitsToUint(row2.xyz) * 0x85ebca6bu;
-    float lot = unitReal(hashBits(uvec4(ray, hashBits(uvec4(triangle, floatBitsToUint(row0.w))).x)).x);
+    // By its place, as a triangle that was split lies in several slots; faces in one place with one material draw the same. A round of the hash for
+    // each part: rays to one point have bits in common.
+    uvec4 bits = hashBits(uvec4(floatBitsToUint(row0.xyz) + floatBitsToUint(row2.xyz) * 0x85ebca6bu, floatBitsToUint(row0.w)));
+    bits = hashBits(bits ^ uvec4(floatBitsToUint(origin), 0u));
+    bits = hashBits(bits ^ uvec4(floatBitsToUint(direction), 0u));
+    float lot = unitReal(bits.x);
     return alpha < (flags == MINIRT_MATERIAL_ALPHA_MASK ? material.finish.w : lot) || alpha <= 0.0;
 }
 
