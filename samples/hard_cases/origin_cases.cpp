@@ -60,9 +60,8 @@ double triangles(Stage& stage, double near, double far, bool judged) {
         shot.objects.push_back(rectangle({-2 * far, -2 * far, side}, {4 * far, 0, 0}, {0, 4 * far, 0}, "light"));
     shot.lights = Json::array({{{"type", "point"}, {"position", {0, 0, 0}}, {"intensity", {1, 1, 1}}, {"falloff", "none"}}});
     const Picture picture = stage.render(shot);
-    return percentOf(picture, [&](uint32_t x, uint32_t y) {
-        return picture.at(x, y) > 8 || (judged && !(picture.at(x, y) > 0));
-    });
+    return percentOf(picture,
+                     [&](uint32_t x, uint32_t y) { return picture.at(x, y) > 8 || (judged && !(picture.at(x, y) > 0)); });
 }
 
 /// A clear sheet with a shining one behind it, before black: percent of the pixels that miss the second.
@@ -142,10 +141,11 @@ std::vector<HardCase> originCases() {
     return {
         {"own shadow", "a lit wall 1 km from the middle of the scene, seen from 10 m", shadow, 0,
          [](Stage& s) { return ownShadow(s, 1e3); }},
-        {"own shadow far away", "a lit wall 100 km from the middle of the scene", shadow, 0, [](Stage& s) { return ownShadow(s, 1e5); }},
-        {"own shadow farther away", "a lit wall 1000 km from the middle of the scene", shadow, 0, [](Stage& s) { return ownShadow(s, 1e6); }},
-        {"second sheet", "two sheets 0.1 mm apart, seen from 10 m", missed, 0,
-         [](Stage& s) { return secondSheet(s, 1e-4, 0); }},
+        {"own shadow far away", "a lit wall 100 km from the middle of the scene", shadow, 0,
+         [](Stage& s) { return ownShadow(s, 1e5); }},
+        {"own shadow farther away", "a lit wall 1000 km from the middle of the scene", shadow, 0,
+         [](Stage& s) { return ownShadow(s, 1e6); }},
+        {"second sheet", "two sheets 0.1 mm apart, seen from 10 m", missed, 0, [](Stage& s) { return secondSheet(s, 1e-4, 0); }},
         {"second sheet far away", "two sheets 2 mm apart, 1 km from the middle of the scene", missed, 0,
          [](Stage& s) { return secondSheet(s, 2e-3, 1e3); }},
         // 1.1e-5 for 64 bounces of unit cubes, and as much again for what the camera's own rounding makes of 84 m.
