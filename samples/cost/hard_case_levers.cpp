@@ -43,6 +43,7 @@ std::vector<HardCases> runHardCases(const Device& device, Progress& progress) {
     }
     const auto all = allSettings();
     std::vector<minirtc::LeverSettings> settings;
+    settings.reserve(all.size());
     for (const auto& [name, levers] : all) settings.push_back(levers);
     const auto results = hard_cases::runHardCases(contexts, settings,
                                                   [&](size_t done, size_t cases) { progress.show("hard cases", done, cases); });

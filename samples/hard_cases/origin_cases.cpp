@@ -89,9 +89,11 @@ double folded(double x) {
 /// A block of glass of the shaft's walls, closed behind its ends: within 40 degrees of its axis all light is reflected.
 std::string lightGuide(double length) {
     std::string obj;
-    for (int i = 0; i < 8; ++i)
-        obj += std::string("v ") + (i & 1 ? "0.5 " : "-0.5 ") + (i & 2 ? "0.5 " : "-0.5 ") +
-               (i & 4 ? "1" : std::to_string(-length - 1)) + "\n";
+    char line[64];
+    for (int i = 0; i < 8; ++i) {
+        std::snprintf(line, sizeof line, "v %g %g %g\n", i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 1 : -length - 1);
+        obj += line;
+    }
     return obj + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 }
 
