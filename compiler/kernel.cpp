@@ -206,6 +206,7 @@ std::vector<Kernel> KernelCompiler::compile(const std::vector<KernelJob>& jobs) 
         }
     });
     std::vector<Kernel> kernels;
+    kernels.reserve(wanted.size());
     for (const std::shared_future<Kernel>& kernel : wanted) kernels.push_back(kernel.get());
     return kernels;
 }

@@ -105,8 +105,7 @@ void takeDown(VkDevice device, VkPipeline pipeline) {
 VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* allocator,
                                                VkPipeline* out) {
-    if (!recorder.programs || !recorder.statistics)
-        return recorder.createPipelines(device, cache, count, infos, allocator, out);
+    if (!recorder.programs || !recorder.statistics) return recorder.createPipelines(device, cache, count, infos, allocator, out);
     std::vector<VkComputePipelineCreateInfo> asking(infos, infos + count);
     for (VkComputePipelineCreateInfo& info : asking) info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
     const VkResult result = recorder.createPipelines(device, cache, count, asking.data(), allocator, out);

@@ -168,7 +168,8 @@ void print(const SceneResult& result) {
 }
 
 void print(const std::vector<EffectsResult>& results) {
-    const bool told = std::any_of(results.begin(), results.end(), [](const EffectsResult& e) { return !e.pruned.statistics.empty(); });
+    const bool told =
+        std::any_of(results.begin(), results.end(), [](const EffectsResult& e) { return !e.pruned.statistics.empty(); });
     std::printf("| scene, integrator | SPIR-V, kB | first dispatch, ms | ms a sample | times faster (quartiles) |%s\n",
                 told ? " registers | stack, bytes |" : "");
     std::printf("|---|---|---|---|---|%s\n", told ? "---|---|" : "");

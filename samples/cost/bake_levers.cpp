@@ -114,6 +114,7 @@ std::vector<std::string> Baker::blobsOf(const std::vector<Lever>& levers, const 
     }
     bake(fresh);
     std::vector<std::string> paths;
+    paths.reserve(wishes.size());
     for (const Wish& wish : wishes) paths.push_back(blobs_.at(wish));
     return paths;
 }

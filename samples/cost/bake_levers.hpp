@@ -1,9 +1,8 @@
 // The levers of the bake: the scene is baked once more for each choice of them.
 #pragma once
-#include <prepared_scene.hpp>
-
 #include <filesystem>
 #include <map>
+#include <prepared_scene.hpp>
 #include <string>
 #include <vector>
 

@@ -43,9 +43,10 @@ std::vector<HardCases> runHardCases(const Device& device, Progress& progress) {
     }
     const auto all = allSettings();
     std::vector<minirtc::LeverSettings> settings;
+    settings.reserve(all.size());
     for (const auto& [name, levers] : all) settings.push_back(levers);
-    const auto results =
-        hard_cases::runHardCases(contexts, settings, [&](size_t done, size_t cases) { progress.show("hard cases", done, cases); });
+    const auto results = hard_cases::runHardCases(contexts, settings,
+                                                  [&](size_t done, size_t cases) { progress.show("hard cases", done, cases); });
     std::vector<HardCases> found;
     for (size_t i = 0; i < all.size(); ++i) found.push_back(summary(all[i].first, results[i]));
     progress.clear();

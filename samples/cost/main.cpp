@@ -37,15 +37,19 @@ void addOptions(CLI::App& app, Options& o) {
         ->check(CLI::Range(1u, 4096u));
     app.add_option("--repeats", o.study.repeats, "How often each picture is rendered, in turn with the others (default: 5)")
         ->check(CLI::Range(1u, 1000u));
-    app.add_option("--seconds", o.study.seconds, "How long it may take, bakes and pipelines included (default: 300). Each setting is baked and rendered three times in any case, in "
-                   "pictures of 64x48 where time is short")->check(CLI::PositiveNumber);
+    app.add_option("--seconds", o.study.seconds,
+                   "How long it may take, bakes and pipelines included (default: 300). Each setting is baked and rendered three "
+                   "times in any case, in "
+                   "pictures of 64x48 where time is short")
+        ->check(CLI::PositiveNumber);
     app.add_option("--combinations", o.study.combinations, "Most combinations of levers that are tried (default: 12)")
         ->check(CLI::Range(size_t{0}, size_t{100}));
     app.add_option("--budget-ms", o.study.budgetMs,
                    "Name the settings with the least error whose picture takes no longer than this")
         ->check(CLI::PositiveNumber);
-    app.add_flag("--hard-cases", o.hardCases,
-                 "Also run the scenes in which rounding shows, with each setting of the levers (a minute or two, beyond --seconds)");
+    app.add_flag(
+        "--hard-cases", o.hardCases,
+        "Also run the scenes in which rounding shows, with each setting of the levers (a minute or two, beyond --seconds)");
     app.add_option("--device", o.device, "Number or part of the name of a device from `minirtc devices`");
 }
 

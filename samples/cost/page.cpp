@@ -141,7 +141,8 @@ std::string leversSection(const Report& report) {
     for (const Failure& f : report.failures)
         items += element("li", "", "<span class=\"chip either\">failed</span>" + element("span", "", escaped(f.reason)));
     const std::string key =
-        "<b>keep</b>: costs no time, or the error falls by a larger factor than the time grows. <b>trade</b>: more accurate, but the "
+        "<b>keep</b>: costs no time, or the error falls by a larger factor than the time grows. <b>trade</b>: more accurate, but "
+        "the "
         "time grows by the larger factor. <b>spare</b>: costs time for nothing. <b>either</b>: no difference. How to set each: "
         "<code>minirtc levers</code>.";
     return element("h2", "", "Each lever, the most useful first") + element("ul", "class=\"levers\"", items) +
@@ -251,7 +252,8 @@ std::string hardCasesSection(const Report& report) {
     const HardCases& defaults = report.hardCases.front();
     const std::string held = std::to_string(defaults.held) + " of " + std::to_string(defaults.all);
     const std::string text =
-        " are held by the default settings: small scenes in which rounding shows, each with a figure and its bound. What this scene "
+        " are held by the default settings: small scenes in which rounding shows, each with a figure and its bound. What this "
+        "scene "
         "may not show, another one will. Below, how many each setting alone holds, and which it breaks.";
     return element("h2", "", "Hard cases") + element("p", "", "<b>" + held + "</b>" + text) +
            element("div", "class=\"card cases\"", rows);
@@ -290,11 +292,12 @@ std::string methodSection(const Report& report) {
                         "a driver that caches them makes it smaller.");
     if (report.samples() < report.sceneSamples)
         text += element("p", "",
-                        "Measured with " + std::to_string(report.samples()) + (report.samples() == 1 ? " sample" : " samples") + " a pixel instead of the scene's " +
-                            std::to_string(report.sceneSamples) + ", to end in time.");
+                        "Measured with " + std::to_string(report.samples()) + (report.samples() == 1 ? " sample" : " samples") +
+                            " a pixel instead of the scene's " + std::to_string(report.sceneSamples) + ", to end in time.");
     text += element("p", "",
-                    "Of " + number(report.seconds) + " s " + number(report.prepareSeconds) + " s went into baking and into the pipelines of " +
-                        std::to_string(report.pipelines) + " variants of the scene, before the first picture.");
+                    "Of " + number(report.seconds) + " s " + number(report.prepareSeconds) +
+                        " s went into baking and into the pipelines of " + std::to_string(report.pipelines) +
+                        " variants of the scene, before the first picture.");
     if (!report.baked)
         text += element("p", "", "From a blob only levers of the rendering can move; those of the bake need the scene file.");
     return element("h2", "", "How this was measured") + text;

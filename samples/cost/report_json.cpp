@@ -84,10 +84,17 @@ Json budgetJson(const Report& report) {
 }  // namespace
 
 std::string reportJson(const Report& report) {
-    Json json = {{"scene", report.scene},        {"command", report.command},      {"date", report.date},
-                 {"device", report.device.name}, {"driver", report.device.driver}, {"width", report.width},
-                 {"height", report.height},      {"samples", report.samples()},    {"scene_samples", report.sceneSamples},
-                 {"seconds", report.seconds},    {"prepare_seconds", report.prepareSeconds},
+    Json json = {{"scene", report.scene},
+                 {"command", report.command},
+                 {"date", report.date},
+                 {"device", report.device.name},
+                 {"driver", report.device.driver},
+                 {"width", report.width},
+                 {"height", report.height},
+                 {"samples", report.samples()},
+                 {"scene_samples", report.sceneSamples},
+                 {"seconds", report.seconds},
+                 {"prepare_seconds", report.prepareSeconds},
                  {"baked", report.baked}};
     json["definitions"] = {{"relmse_epsilon", kRelMseEpsilon}, {"wrong_pixel_steps", kUnseenSteps}};
     json["reference"] = {{"settings", settingsJson(report.levers, report.reference.configuration)},

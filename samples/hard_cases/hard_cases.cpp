@@ -61,6 +61,7 @@ std::vector<std::vector<HardCaseResult>> runHardCases(const std::vector<minirt_c
         }
     };
     std::vector<std::thread> threads;
+    threads.reserve(contexts.size());
     for (minirt_context* context : contexts) threads.emplace_back(work, context);
     for (std::thread& thread : threads) thread.join();
     return results;

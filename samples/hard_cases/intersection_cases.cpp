@@ -1,5 +1,6 @@
 // Rays that a mesh must stop: small, far, thin triangles, and those that are aimed at where triangles meet.
 #include <cmath>
+#include <cstdio>
 
 #include "cases.hpp"
 #include "wall.hpp"
@@ -47,12 +48,12 @@ double besideDegenerates(Stage& stage, double x, double y) {
     constexpr double kCell = 0.1;
     constexpr int kSide = kAimed + 5;
     std::string obj = wall(pose, {kSide, kSide, kCell, kCell, x * kCell, y * kCell});
+    char line[96];
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i + 2 <= kSide; ++i) {
-            const std::string a = std::to_string(j * (kSide + 1) + i + 1);
-            const std::string b = std::to_string(j * (kSide + 1) + i + 2);
-            const std::string c = std::to_string(j * (kSide + 1) + i + 3);
-            obj += "f " + a + " " + a + " " + b + "\nf " + a + " " + b + " " + c + "\n";
+            const int a = j * (kSide + 1) + i + 1;
+            std::snprintf(line, sizeof line, "f %d %d %d\nf %d %d %d\n", a, a, a + 1, a, a + 1, a + 2);
+            obj += line;
         }
     return seenThrough(stage, across(pose, kAimed * kCell, kAimed * kCell, kAimed), obj, pose);
 }
@@ -62,12 +63,13 @@ double denormals(Stage& stage) {
     const Pose pose;
     constexpr double kTiny = 1e-41;
     constexpr int kSide = 33;
+    constexpr int kMiddle = kSide / 2;
     std::string obj;
     char line[160];
     for (int j = 0; j <= kSide; ++j)
         for (int i = 0; i <= kSide; ++i) {
-            std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\nv %.17g %.17g %.17g\n", 0.1 * (i - kSide / 2),
-                          0.1 * (j - kSide / 2), kTiny * (i % 3 - 1), i * kTiny, j * kTiny, -kTiny);
+            std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\nv %.17g %.17g %.17g\n", 0.1 * (i - kMiddle),
+                          0.1 * (j - kMiddle), kTiny * (i % 3 - 1), i * kTiny, j * kTiny, -kTiny);
             obj += line;
         }
     const auto vertex = [](int i, int j, int tiny) { return 2 * (j * (kSide + 1) + i) + 1 + tiny; };

@@ -1,5 +1,6 @@
 // Glass at its limits: the critical angle, indices of 1 and of extremes, normals that disagree, reflectance by Fresnel's equations.
 #include <cmath>
+#include <cstdio>
 #include <glm/gtc/constants.hpp>
 
 #include "cases.hpp"
@@ -169,19 +170,21 @@ double normalsApart(Stage& stage) {
 double smoothBesideDegenerates(Stage& stage) {
     constexpr int kSide = 9;
     std::string obj;
+    char line[96];
     for (int j = 0; j <= kSide; ++j)
-        for (int i = 0; i <= kSide; ++i)
-            obj += "v " + std::to_string(0.2 * i - 0.9) + " " + std::to_string(0.2 * j - 0.9) + " " +
-                   std::to_string(0.1 * ((i * 7 + j * 3) % 5)) + "\n";
+        for (int i = 0; i <= kSide; ++i) {
+            std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", 0.2 * i - 0.9, 0.2 * j - 0.9, 0.1 * ((i * 7 + j * 3) % 5));
+            obj += line;
+        }
     std::string degenerate;
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i) {
-            const std::string a = std::to_string(j * (kSide + 1) + i + 1);
-            const std::string b = std::to_string(j * (kSide + 1) + i + 2);
-            const std::string c = std::to_string((j + 1) * (kSide + 1) + i + 2);
-            const std::string d = std::to_string((j + 1) * (kSide + 1) + i + 1);
-            obj += "f " + a + " " + b + " " + c + "\nf " + a + " " + c + " " + d + "\n";
-            degenerate += "f " + a + " " + a + " " + c + "\n";
+            const int a = j * (kSide + 1) + i + 1;
+            const int b = a + kSide + 1;
+            std::snprintf(line, sizeof line, "f %d %d %d\nf %d %d %d\n", a, a + 1, b + 1, a, b + 1, b);
+            obj += line;
+            std::snprintf(line, sizeof line, "f %d %d %d\n", a, a, b + 1);
+            degenerate += line;
         }
     Shot shot;
     shot.view = {{0, 0, 3}, {0, 0, 0}, 30, 64};

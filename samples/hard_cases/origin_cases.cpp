@@ -60,9 +60,8 @@ double triangles(Stage& stage, double near, double far, bool judged) {
         shot.objects.push_back(rectangle({-2 * far, -2 * far, side}, {4 * far, 0, 0}, {0, 4 * far, 0}, "light"));
     shot.lights = Json::array({{{"type", "point"}, {"position", {0, 0, 0}}, {"intensity", {1, 1, 1}}, {"falloff", "none"}}});
     const Picture picture = stage.render(shot);
-    return percentOf(picture, [&](uint32_t x, uint32_t y) {
-        return picture.at(x, y) > 8 || (judged && !(picture.at(x, y) > 0));
-    });
+    return percentOf(picture,
+                     [&](uint32_t x, uint32_t y) { return picture.at(x, y) > 8 || (judged && !(picture.at(x, y) > 0)); });
 }
 
 /// A clear sheet with a shining one behind it, before black: percent of the pixels that miss the second.
@@ -90,9 +89,11 @@ double folded(double x) {
 /// A block of glass of the shaft's walls, closed behind its ends: within 40 degrees of its axis all light is reflected.
 std::string lightGuide(double length) {
     std::string obj;
-    for (int i = 0; i < 8; ++i)
-        obj += std::string("v ") + (i & 1 ? "0.5 " : "-0.5 ") + (i & 2 ? "0.5 " : "-0.5 ") +
-               (i & 4 ? "1" : std::to_string(-length - 1)) + "\n";
+    char line[64];
+    for (int i = 0; i < 8; ++i) {
+        std::snprintf(line, sizeof line, "v %g %g %g\n", i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 1 : -length - 1);
+        obj += line;
+    }
     return obj + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 }
 
@@ -142,10 +143,11 @@ std::vector<HardCase> originCases() {
     return {
         {"own shadow", "a lit wall 1 km from the middle of the scene, seen from 10 m", shadow, 0,
          [](Stage& s) { return ownShadow(s, 1e3); }},
-        {"own shadow far away", "a lit wall 100 km from the middle of the scene", shadow, 0, [](Stage& s) { return ownShadow(s, 1e5); }},
-        {"own shadow farther away", "a lit wall 1000 km from the middle of the scene", shadow, 0, [](Stage& s) { return ownShadow(s, 1e6); }},
-        {"second sheet", "two sheets 0.1 mm apart, seen from 10 m", missed, 0,
-         [](Stage& s) { return secondSheet(s, 1e-4, 0); }},
+        {"own shadow far away", "a lit wall 100 km from the middle of the scene", shadow, 0,
+         [](Stage& s) { return ownShadow(s, 1e5); }},
+        {"own shadow farther away", "a lit wall 1000 km from the middle of the scene", shadow, 0,
+         [](Stage& s) { return ownShadow(s, 1e6); }},
+        {"second sheet", "two sheets 0.1 mm apart, seen from 10 m", missed, 0, [](Stage& s) { return secondSheet(s, 1e-4, 0); }},
         {"second sheet far away", "two sheets 2 mm apart, 1 km from the middle of the scene", missed, 0,
          [](Stage& s) { return secondSheet(s, 2e-3, 1e3); }},
         // 1.1e-5 for 64 bounces of unit cubes, and as much again for what the camera's own rounding makes of 84 m.
