@@ -32,6 +32,12 @@ GpuContext::~GpuContext() {
     }
 }
 
+bool GpuContext::isCpu() const {
+    minirt_device_info info;
+    minirt_get_device_info(context_, &info);
+    return info.is_cpu != 0;
+}
+
 std::vector<std::string> GpuContext::takeMessages() {
     std::vector<std::string> taken;
     taken.swap(messages_);

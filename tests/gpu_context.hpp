@@ -18,6 +18,8 @@ public:
 
     explicit operator bool() const { return context_ != nullptr; }
     minirt_context* get() const { return context_; }
+    /// Whose kernels count every pass of every loop. A GPU's count those of outer loops.
+    bool isCpu() const;
     /// What was said since the last call. For cases that provoke an error: the case judges it then.
     std::vector<std::string> takeMessages();
 
