@@ -12,6 +12,7 @@ namespace minirtc {
 namespace {
 
 constexpr std::array<EffectInfo, kEffectCount> kEffects = {{
+    {"triangles", "EFFECT_TRIANGLES", "every object is a sphere"},
     {"spheres", "EFFECT_SPHERES", "no object is a sphere"},
     {"smooth_normals", "EFFECT_SMOOTH_NORMALS", "every vertex normal equals its face's"},
     {"textures", "EFFECT_TEXTURES", "no material in use has a texture"},
@@ -152,6 +153,7 @@ EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Vol
     std::set<uint32_t> seen;
     for (const Primitive& primitive : geometry.primitives) {
         const std::string& object = geometry.bodies[primitive.body].name;
+        callFor(effects, Effect::triangles, !primitive.isSphere, object);
         callFor(effects, Effect::spheres, primitive.isSphere, object);
         if (!seen.insert(primitive.material).second) continue;
         addMaterial(effects, scene, primitive.material, paths, object);

@@ -11,6 +11,7 @@
 namespace minirtc {
 
 enum class Effect {
+    triangles,
     spheres,
     smoothNormals,
     textures,

@@ -41,7 +41,7 @@ const std::vector<std::string> kParts = {
     "common/fetch.glsl",         "traverse/nodes.glsl",
     "effects/images.glsl",       "effects/background.glsl",
     "effects/textures.glsl",     "common/materials.glsl",
-    "effects/alpha.glsl",        "effects/spheres.glsl",
+    "effects/alpha.glsl",        "effects/primitives.glsl",
     "traverse/stack.glsl",       "traverse/traverse.glsl",
     "common/suspend.glsl",       "effects/smooth_normals.glsl",
     "effects/surface_maps.glsl", "effects/checker.glsl",

@@ -62,11 +62,12 @@ std::string reason(const EffectSet& effects, Effect effect) {
     return effects[effect].reason;
 }
 
-/// The names of the effects that are in, with a blank behind each.
+/// The names of the effects that are in, with a blank behind each; but for triangles, which nearly every scene here holds.
 std::string included(const EffectSet& effects) {
     std::string names;
     for (size_t i = 0; i < kEffectCount; ++i) {
-        if (effects.choices[i].included) names += std::string(effectInfo(static_cast<Effect>(i)).name) + " ";
+        if (effects.choices[i].included && static_cast<Effect>(i) != Effect::triangles)
+            names += std::string(effectInfo(static_cast<Effect>(i)).name) + " ";
     }
     return names;
 }
@@ -151,7 +152,9 @@ std::vector<std::string> allKernels() {
 TEST_CASE("a scene that calls for nothing has no effect and says why") {
     const EffectSet effects = Small().effects();
     CHECK(included(effects).empty());
-    for (size_t i = 0; i < kEffectCount; ++i) CHECK(effects.choices[i].reason == effectInfo(static_cast<Effect>(i)).absent);
+    CHECK(effects.has(Effect::triangles));
+    CHECK(reason(effects, Effect::triangles) == "thing");
+    for (size_t i = 1; i < kEffectCount; ++i) CHECK(effects.choices[i].reason == effectInfo(static_cast<Effect>(i)).absent);
 }
 
 TEST_CASE("each property of a material calls for its effect and names material and object") {
@@ -238,6 +241,10 @@ TEST_CASE("geometry and lights and background and nodes call for theirs") {
         small.geometry.primitives[1].body = 1;
         CHECK(included(small.effects()) == "spheres ");
         CHECK(reason(small.effects(), Effect::spheres) == "ball");
+        CHECK(small.effects().has(Effect::triangles));
+        small.geometry.primitives[0].isSphere = true;
+        CHECK_FALSE(small.effects().has(Effect::triangles));
+        CHECK(reason(small.effects(), Effect::triangles) == "every object is a sphere");
     }
     SUBCASE("smooth normals") {
         small.geometry.anySmooth = true;

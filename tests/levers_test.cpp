@@ -129,8 +129,8 @@ TEST_CASE("settings at their default leave the source of every kernel as it is")
 }
 
 TEST_CASE("every setting with code of its own changes the kernels that read it, and they compile") {
-    const EffectSet effects = only({Effect::spheres, Effect::reflection, Effect::refraction, Effect::fresnel, Effect::areaLights,
-                                    Effect::emission, Effect::pointLights, Effect::roughTransmission});
+    const EffectSet effects = only({Effect::triangles, Effect::spheres, Effect::reflection, Effect::refraction, Effect::fresnel,
+                                    Effect::areaLights, Effect::emission, Effect::pointLights, Effect::roughTransmission});
     const Kernel accurate = compileKernel("path", effects);
     CHECK_FALSE(declaresDoubles(accurate.spirv));
     for (const Lever& lever : levers())
@@ -152,7 +152,8 @@ TEST_CASE("the cheapest and the dearest of all levers together compile in the ke
     }
     LeverSettings cheapDoubles = cheapest;
     cheapDoubles["precision"] = "double";
-    EffectSet effects = only({Effect::spheres, Effect::refraction, Effect::fresnel, Effect::areaLights, Effect::emission});
+    EffectSet effects =
+        only({Effect::triangles, Effect::spheres, Effect::refraction, Effect::fresnel, Effect::areaLights, Effect::emission});
     for (const LeverSettings& asked : {cheapest, dearest, cheapDoubles})
         for (const Integrator integrator : {Integrator::whitted, Integrator::wavefront})
             for (const std::string& kernel : kernelsOf(integrator, effects))

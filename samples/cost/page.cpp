@@ -70,12 +70,21 @@ std::string leverSentence(const Report& report, const Comparison& c) {
            (linked ? " <a href=\"#" + anchor(c.measurement) + "\">Where?</a>" : "");
 }
 
+std::string sampleCount(uint32_t count) {
+    return std::to_string(count) + (count == 1 ? " sample" : " samples");
+}
+
+/// Where there was no time for the scene's own samples.
+std::string insteadOf(const Report& report) {
+    return report.samples() < report.sceneSamples ? " instead of the scene's " + std::to_string(report.sceneSamples) : "";
+}
+
 std::string head(const Report& report) {
     std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene));
-    text += element("p", "class=\"soft\"",
-                    escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " +
-                            std::to_string(report.height) + " pixels, " + std::to_string(report.samples()) +
-                            (report.samples() == 1 ? " sample" : " samples") + " a pixel, " + report.date));
+    text += element(
+        "p", "class=\"soft\"",
+        escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " + std::to_string(report.height) +
+                " pixels, " + sampleCount(report.samples()) + " a pixel" + insteadOf(report) + ", " + report.date));
     const Measurement& own = report.measurements.front();
     std::string pictures = figure(
         pictureUri(own.picture),
@@ -145,8 +154,8 @@ std::string leversSection(const Report& report) {
         "the "
         "time grows by the larger factor. <b>spare</b>: costs time for nothing. <b>either</b>: no difference. How to set each: "
         "<code>minirtc levers</code>.";
-    return element("h2", "", "Each lever, the most useful first") + element("ul", "class=\"levers\"", items) +
-           element("p", "class=\"soft\"", key);
+    return element("h2", "", "Each lever, what removes the most error for its time first") +
+           element("ul", "class=\"levers\"", items) + element("p", "class=\"soft\"", key);
 }
 
 /// The scene's own settings, then levers by their use, then combinations by time.
@@ -197,8 +206,8 @@ std::string tableSection(const Report& report) {
     for (size_t i : tableOrder(report)) rows += row(report, i);
     const std::string bias = report.reference.random ? "bias" : "at the same samples";
     const std::string headings =
-        "<tr><th>No.</th><th>Settings</th><th>ms</th><th>middle half</th><th>time</th><th>relMSE</th><th>" + bias +
-        "</th><th>wrong pixels</th><th>largest error</th><th>pipeline ms</th><th>kernel kB</th></tr>";
+        "<tr><th>No.</th><th>Settings</th><th>ms</th><th>middle half</th><th>time</th><th>relMSE, noise included</th><th>" +
+        bias + "</th><th>wrong, noise included</th><th>largest error</th><th>pipeline ms</th><th>kernel kB</th></tr>";
     return element("h2", "", "All figures") +
            element("div", "class=\"scroll\" tabindex=\"0\"",
                    element("table", "", element("thead", "", headings) + element("tbody", "", rows))) +
@@ -272,7 +281,7 @@ std::string methodSection(const Report& report) {
     text += element("p", "",
                     "The <b>reference</b> has every lever at its most accurate setting and " + std::to_string(r.samples) +
                         " samples a pixel. Its own relMSE, from the difference of two independent halves, is " +
-                        number(r.relMse) + "; smaller errors than that are not to be believed.");
+                        number(r.relMse) + "; smaller errors than that, noise included, are not to be believed.");
     text +=
         r.random
             ? element("p", "",
@@ -282,7 +291,9 @@ std::string methodSection(const Report& report) {
                           std::to_string(report.sceneSamples) + " samples a pixel: bias stays, noise falls as their number.")
             : element("p", "",
                       "<b>At the same samples</b> is relMSE against the reference's settings at the same sample positions: what "
-                      "the lever itself does, without the error of too few samples. Whitted's pictures repeat bit for bit.");
+                      "the lever itself does, without the error of too few samples. Whitted's pictures repeat bit for bit. "
+                      "What a sentence says is removed is the difference in that column, as a share of itself and the accurate "
+                      "setting's whole error, noise included; its pixels are those that this lever alone makes wrong.");
     text += element("p", "",
                     "<b>Time</b> is the device's time for the dispatches of one picture: the median of " +
                         std::to_string(own.repeats) +
@@ -292,10 +303,9 @@ std::string methodSection(const Report& report) {
                         "a driver that caches them makes it smaller.");
     if (report.samples() < report.sceneSamples)
         text += element("p", "",
-                        "Measured with " + std::to_string(report.samples()) + (report.samples() == 1 ? " sample" : " samples") +
-                            " a pixel instead of the scene's " + std::to_string(report.sceneSamples) + ", to end in time.");
+                        "Measured with " + sampleCount(report.samples()) + " a pixel" + insteadOf(report) + ", to end in time.");
     text += element("p", "",
-                    "Of " + number(report.seconds) + " s " + number(report.prepareSeconds) +
+                    number(report.prepareSeconds) + " of " + number(report.seconds) +
                         " s went into baking and into the pipelines of " + std::to_string(report.pipelines) +
                         " variants of the scene, before the first picture.");
     if (!report.baked)

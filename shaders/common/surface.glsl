@@ -17,9 +17,9 @@ Surface surfaceAt(vec3 origin, vec3 direction, uint slot, float t) {
     vec4 row0 = primitiveRow(slot, 0u);
     vec4 row1 = primitiveRow(slot, 1u);
     vec4 row2 = primitiveRow(slot, 2u);
-    TriangleHit hit = intersectTriangle(origin, shearOf(direction), row0.xyz, row1.xyz, row2.xyz, MINIRT_RAY_END);
+    TriangleHit hit = meetTriangle(origin, shearOf(direction), row0, row1, row2, MINIRT_RAY_END);
     vec2 b = vec2(hit.b1, hit.b2);
-    SurfacePoint point = trianglePoint(hit, row0.xyz, row1.xyz, row2.xyz);
+    SurfacePoint point = pointOfTriangle(hit, row0, row1, row2);
     refineSphere(row0, row1, origin, direction, t, point);
     Surface surface;
     surface.p = point.p;
