@@ -52,7 +52,7 @@ extern "C" {
    MINIRT_API        linkage of the functions; default extern.
    MINIRT_NO_DLOPEN  define where there is no dynamic loader: minirt_host_device::get_instance_proc_addr must then be given.
    MINIRT_NO_THREADS define where there are no threads. Else a load checks on one while it uploads, and the pipelines of an integrator
-                     are made on one each; all end before the call returns, and none calls back. */
+                     are made on one each; all end before the call returns. They call Vulkan, and nothing else of the host's. */
 #ifndef MINIRT_API
 #define MINIRT_API
 #endif
@@ -545,8 +545,9 @@ MINIRT_API minirt_result minirt_record(minirt_job* job, VkCommandBuffer commands
 #include <new>
 #include <type_traits>
 
-#if !defined(MINIRT_NO_THREADS)
-#include <system_error>
+/* Without exceptions a thread that the system refuses would end the program. */
+#if !defined(MINIRT_NO_THREADS) && defined(__cpp_exceptions)
+#define MINIRT_HAS_THREADS
 #include <thread>
 #endif
 #if !defined(MINIRT_NO_DLOPEN)
@@ -623,27 +624,23 @@ void hostDelete(const minirt_allocator& allocator, T* object) {
 /* >>implementation-threads */
 constexpr uint32_t kMostTasks = 6;
 
-#if !defined(MINIRT_NO_THREADS)
+#if defined(MINIRT_HAS_THREADS)
 /* task(i) on a thread of its own, or at once where the system gives none: then what is returned cannot be joined. */
 template <typename Task>
 std::thread startThread(const Task& task, uint32_t i) {
-#if defined(__cpp_exceptions)
     try {
         return std::thread(task, i);
-    } catch (const std::system_error&) {
+    } catch (...) {
         task(i);
         return std::thread();
     }
-#else
-    return std::thread(task, i);
-#endif
 }
 #endif
 
 /* Runs task(0) on this thread and task(1) .. task(count - 1) on others; returns when all are done. */
 template <typename Task>
 void atOnce(uint32_t count, const Task& task) {
-#if defined(MINIRT_NO_THREADS)
+#if !defined(MINIRT_HAS_THREADS)
     for (uint32_t i = 0; i < count; ++i) task(i);
 #else
     std::thread threads[kMostTasks];

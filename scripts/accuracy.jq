@@ -24,7 +24,7 @@ Each lever is moved alone from what the scene says by itself. **Error** is relMS
 stayed and noise has fallen. **Time** is the accurate setting's over the cheap one's: the median, and the middle half, of all pairs of repeats, which were
 measured in rounds in which all settings take turns; the drift of whole rounds is taken out. A pixel is **wrong** when its 8-bit sRGB value is off by more
 than 2 steps; given where pictures have no noise, by how many more the cheap setting gets wrong at the same samples.
-`keep`: the error falls by a larger factor than the time grows; `trade`: more accurate, but the time grows by the larger factor; `spare`: costs time for
+`keep`: costs no time, or the error falls by a larger factor than the time grows; `trade`: more accurate, but the time grows by the larger factor; `spare`: costs time for
 nothing; `either`: no difference; `·`: it can change nothing there.";
 
 # The leading verdicts of each scene.

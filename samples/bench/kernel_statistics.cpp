@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
 #include "stage.hpp"
 
@@ -109,6 +110,8 @@ VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache 
     std::vector<VkComputePipelineCreateInfo> asking(infos, infos + count);
     for (VkComputePipelineCreateInfo& info : asking) info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
     const VkResult result = recorder.createPipelines(device, cache, count, asking.data(), allocator, out);
+    static std::mutex oneAtATime;  // the runtime makes pipelines on several threads
+    const std::lock_guard<std::mutex> lock(oneAtATime);
     for (uint32_t i = 0; result == VK_SUCCESS && i < count; ++i) takeDown(device, out[i]);
     return result;
 }

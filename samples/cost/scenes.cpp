@@ -57,6 +57,7 @@ void Scenes::prepare(const std::vector<Configuration>& configurations) {
     }
     std::vector<std::thread> threads;
     const size_t devices = std::min(fresh.size(), mostDevices());
+    for (size_t d = 0; d < devices; ++d) device(d);  // which may throw, before a thread runs
     for (size_t d = 0; d < devices; ++d)
         threads.emplace_back([&fresh, &on = device(d), d, devices] {
             for (size_t i = d; i < fresh.size(); i += devices)

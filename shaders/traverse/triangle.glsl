@@ -71,13 +71,13 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
     PRECISE real e2 = bx * ay - by * ax;
     real determinant = e0 + e1 + e2;
     bool inside = (min(e0, min(e1, e2)) >= real(0) || max(e0, max(e1, e2)) <= real(0)) && determinant != real(0);
+    real inverse = determinant != real(0) ? real(1) / determinant : real(0);
     TriangleHit hit;
     hit.hit = false;
     hit.t = tMax;
-    hit.b1 = real(0);
-    hit.b2 = real(0);
+    hit.b1 = e1 * inverse;  // also where a kernel that asks again for a hit rounds it to just outside
+    hit.b2 = e2 * inverse;
     if (inside) {  // few are, which lets a GPU skip the rest
-        real inverse = real(1) / determinant;
         vec3 depths = vec3(a.z, b.z, c.z) * shear.scale.z;
         real nearest = min(depths.x, min(depths.y, depths.z));
         real farthest = max(depths.x, max(depths.y, depths.z));
@@ -88,8 +88,6 @@ TriangleHit intersectTriangle(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3 v
         // its rounding can cost the sign, which the plane knows.
         real mean = clamp(dot(vec3(e0, e1, e2), depths) * inverse, nearest, farthest);
         hit.t = mean > real(0) || !plane.steep ? mean : plane.t;
-        hit.b1 = e1 * inverse;
-        hit.b2 = e2 * inverse;
         hit.hit = ahead && hit.t > real(0) && hit.t < tMax;
     }
     return hit;
