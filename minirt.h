@@ -52,7 +52,8 @@ extern "C" {
    MINIRT_API        linkage of the functions; default extern.
    MINIRT_NO_DLOPEN  define where there is no dynamic loader: minirt_host_device::get_instance_proc_addr must then be given.
    MINIRT_NO_THREADS define where there are no threads. Else a load checks on one while it uploads, and the pipelines of an integrator
-                     are made on one each; all end before the call returns. They call Vulkan, and nothing else of the host's. */
+                     are made on one each; all end before the call returns. They call Vulkan, and nothing else of the host's.
+                     Without exceptions there are none either. */
 #ifndef MINIRT_API
 #define MINIRT_API
 #endif
