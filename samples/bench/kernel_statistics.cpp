@@ -77,30 +77,34 @@ double valueOf(const VkPipelineExecutableStatisticKHR& statistic) {
     }
 }
 
+/// All that one of the extension's two functions tells of `info`.
+template <typename T, typename Query, typename Info>
+std::vector<T> allOf(Query query, VkDevice device, const Info& info, VkStructureType type) {
+    uint32_t count = 0;
+    query(device, &info, &count, nullptr);
+    std::vector<T> all(count, described<T>(type));
+    query(device, &info, &count, all.data());
+    all.resize(count);
+    return all;
+}
+
 KernelStatistics statisticsOf(VkDevice device, VkPipeline pipeline, uint32_t program, const char* name) {
     auto info = described<VkPipelineExecutableInfoKHR>(VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR);
     info.pipeline = pipeline;
     info.executableIndex = program;
-    uint32_t count = 0;
-    recorder.statistics(device, &info, &count, nullptr);
-    std::vector<VkPipelineExecutableStatisticKHR> values(
-        count, described<VkPipelineExecutableStatisticKHR>(VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR));
-    recorder.statistics(device, &info, &count, values.data());
-    values.resize(count);
     KernelStatistics found{name, {}};
-    for (const VkPipelineExecutableStatisticKHR& value : values) found.figures.emplace_back(value.name, valueOf(value));
+    for (const auto& value : allOf<VkPipelineExecutableStatisticKHR>(recorder.statistics, device, info,
+                                                                     VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR))
+        found.figures.emplace_back(value.name, valueOf(value));
     return found;
 }
 
 void takeDown(VkDevice device, VkPipeline pipeline) {
     auto info = described<VkPipelineInfoKHR>(VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR);
     info.pipeline = pipeline;
-    uint32_t count = 0;
-    recorder.programs(device, &info, &count, nullptr);
-    std::vector<VkPipelineExecutablePropertiesKHR> programs(
-        count, described<VkPipelineExecutablePropertiesKHR>(VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR));
-    recorder.programs(device, &info, &count, programs.data());
-    for (uint32_t i = 0; i < count; ++i) recorder.found.push_back(statisticsOf(device, pipeline, i, programs[i].name));
+    const auto programs = allOf<VkPipelineExecutablePropertiesKHR>(recorder.programs, device, info,
+                                                                   VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_PROPERTIES_KHR);
+    for (uint32_t i = 0; i < programs.size(); ++i) recorder.found.push_back(statisticsOf(device, pipeline, i, programs[i].name));
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
