@@ -58,8 +58,13 @@ public:
 
     RaySetResult trace(const RaySet& set) {
         setRays(set);
-        const std::vector<Contender> contenders = contendersFor(set.anyHit);
-        const std::vector<Times> times = takeTurns(contenders, rounds_);
+        std::vector<Contender> contenders;
+        std::vector<Times> times;
+        for (const std::vector<Contender>& together : heats(set.anyHit)) {
+            const std::vector<Times> taken = takeTurns(together, rounds_);
+            contenders.insert(contenders.end(), together.begin(), together.end());
+            times.insert(times.end(), taken.begin(), taken.end());
+        }
         RaySetResult result{set.name, set.rays.size(), 0, {}};
         for (size_t i = 0; i < contenders.size(); ++i)
             result.contenders.push_back({contenders[i].name,
@@ -82,19 +87,32 @@ private:
             if (embree) embree->setRays(set.rays, set.coherent);
     }
 
-    std::vector<Contender> contendersFor(bool anyHit) {
-        using Packing = EmbreeRays::Packing;
+    /// Who takes turns with whom. Embree stands back from a GPU: one that waits for it lowers its clock, and whoever comes first then runs at
+    /// a lower one than the next.
+    std::vector<std::vector<Contender>> heats(bool anyHit) {
+        const std::vector<Contender> device = deviceContenders(anyHit);
+        std::vector<Contender> processor = processorContenders(anyHit);
+        if (kernel_.isGpu()) return {device, processor};
+        processor.insert(processor.begin(), device.begin(), device.end());
+        return {processor};
+    }
+
+    std::vector<Contender> deviceContenders(bool anyHit) {
         std::vector<Contender> contenders = {{"minirt", [this, anyHit] {
                                                   return kernel_.isGpu() ? awake([&] { return kernel_.trace(anyHit); })
                                                                          : kernel_.trace(anyHit);
                                               }}};
         if (pipeline_)
             contenders.push_back({kPipeline, [this, anyHit] { return awake([&] { return pipeline_->trace(anyHit); }); }});
-        if (!robust_) return contenders;
-        contenders.push_back({kRobust, [this, anyHit] { return robust_->trace(anyHit, Packing::single); }});
-        contenders.push_back({kFast, [this, anyHit] { return fast_->trace(anyHit, Packing::single); }});
-        contenders.push_back({"Embree, packets of 8", [this, anyHit] { return fast_->trace(anyHit, Packing::eight); }});
         return contenders;
+    }
+
+    std::vector<Contender> processorContenders(bool anyHit) {
+        using Packing = EmbreeRays::Packing;
+        if (!robust_) return {};
+        return {{kRobust, [this, anyHit] { return robust_->trace(anyHit, Packing::single); }},
+                {kFast, [this, anyHit] { return fast_->trace(anyHit, Packing::single); }},
+                {"Embree, packets of 8", [this, anyHit] { return fast_->trace(anyHit, Packing::eight); }}};
     }
 
     /// Only what is as exact as minirt must agree; the driver's pipeline is counted for the reader.
