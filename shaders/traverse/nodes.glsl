@@ -6,10 +6,8 @@ struct ChildBoxes {
     uint ref0, ref1;
 };
 
-#ifdef EFFECT_FLOAT_NODES
-
-/// 64 bytes: planes are coordinates in metres.
-ChildBoxes fetchNode(uint node) {
+/// 64 bytes: planes as floats.
+ChildBoxes fetchWideNode(uint node) {
     uint row = node * 4u;
     uvec4 a = nodeRow(row);
     uvec4 b = nodeRow(row + 1u);
@@ -18,13 +16,22 @@ ChildBoxes fetchNode(uint node) {
     return ChildBoxes(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz), a.w, c.w);
 }
 
+#ifdef EFFECT_FLOAT_NODES
+
+/// Planes are coordinates in metres.
+ChildBoxes fetchNode(uint node) { return fetchWideNode(node); }
+
 #else
+
+/// The host has unpacked the nodes: a GPU spends more on their 16-bit numbers than on fetching twice as much.
+layout(constant_id = MINIRT_SPEC_WIDE_NODES) const bool WIDE_NODES = false;
 
 float low16(uint word) { return float(int(word & 0xffffu)); }
 float high16(uint word) { return float(int(word >> 16)); }
 
 /// 32 bytes: twelve 16-bit planes of one grid over the scene.
 ChildBoxes fetchNode(uint node) {
+    if (WIDE_NODES) return fetchWideNode(node);
     uint row = node * 2u;
     uvec4 a = nodeRow(row);
     uvec4 b = nodeRow(row + 1u);
