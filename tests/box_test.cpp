@@ -83,11 +83,7 @@ Interval exactSlabs(const Ray& ray, const exact3& lo, const exact3& hi) {
 
 f32::BoxHit intersect(const Grid& grid, const Ray& ray, const Box& box, float tMax = kFar) {
     const f32::SlabRay slabs = f32::slabRay(ray.origin, ray.direction, grid.origin, grid.scale, grid.planes);
-    const f32::BoxHit hit = f32::intersectBoxBySigns(slabs, box.lo, box.hi, tMax);
-    const f32::BoxHit onGpus = f32::intersectBoxByDistances(slabs, box.lo, box.hi, tMax);
-    REQUIRE(hit.hit == onGpus.hit);
-    if (hit.hit) REQUIRE(hit.tNear == onGpus.tNear);
-    return hit;
+    return f32::intersectBox(slabs, box.lo, box.hi, tMax);
 }
 
 /// A point of the box; each coordinate is on a face half of the time.

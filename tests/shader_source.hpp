@@ -45,7 +45,6 @@ using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
-constexpr bool MASKS_LANES = true;
 // clang-format off
 #include "../shaders/common/extremes.glsl"
 #include "../shaders/common/neighbours.glsl"
@@ -73,7 +72,6 @@ using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
-constexpr bool MASKS_LANES = true;
 inline real maxByBits(real a, real b) {
     return std::max(a, b);
 }

@@ -33,8 +33,8 @@ struct BoxHit {
     real tNear;
 };
 
-/// Planes picked by the direction's signs, extremes found by their bits: the fewest instructions where drivers guard min and max against NaN.
-BoxHit intersectBoxBySigns(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
+/// Planes picked by the direction's signs, extremes found by their bits: the fewest instructions, where drivers guard min and max against NaN above all.
+BoxHit intersectBox(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
     vec3 entry = vec3(slabs.scale.x < real(0) ? hi.x : lo.x, slabs.scale.y < real(0) ? hi.y : lo.y, slabs.scale.z < real(0) ? hi.z : lo.z);
     vec3 exit = vec3(slabs.scale.x < real(0) ? lo.x : hi.x, slabs.scale.y < real(0) ? lo.y : hi.y, slabs.scale.z < real(0) ? lo.z : hi.z);
     vec3 tEntry = entry * slabs.scale + slabs.near;
@@ -43,21 +43,4 @@ BoxHit intersectBoxBySigns(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
     result.tNear = maxByBits(maxByBits(tEntry.x, tEntry.y), maxByBits(tEntry.z, real(0)));
     result.hit = result.tNear <= minByBits(minByBits(tExit.x, tExit.y), minByBits(tExit.z, tMax));
     return result;
-}
-
-/// The same planes by their distances, for GPUs, which have instructions for that.
-BoxHit intersectBoxByDistances(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
-    vec3 t0 = lo * slabs.scale;
-    vec3 t1 = hi * slabs.scale;
-    vec3 tEntry = min(t0, t1) + slabs.near;
-    vec3 tExit = max(t0, t1) + slabs.far;
-    BoxHit result;
-    result.tNear = max(max(tEntry.x, tEntry.y), max(tEntry.z, real(0)));
-    result.hit = result.tNear <= min(min(tExit.x, tExit.y), min(tExit.z, tMax));
-    return result;
-}
-
-BoxHit intersectBox(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
-    if (MASKS_LANES) return intersectBoxBySigns(slabs, lo, hi, tMax);
-    return intersectBoxByDistances(slabs, lo, hi, tMax);
 }

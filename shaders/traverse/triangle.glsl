@@ -7,9 +7,9 @@ struct Shear {
     int axis;    // 0, 1, 2: that axis becomes z
 };
 
-/// `axis` last, the cyclic order kept.
+/// `axis` last, by exchanging it with z: a selection less an axis than a rotation. Mirroring turns all edge functions' signs over, which changes no hit.
 vec3 permute(vec3 v, int axis) {
-    return axis == 0 ? vec3(v.y, v.z, v.x) : axis == 1 ? vec3(v.z, v.x, v.y) : v;
+    return vec3(axis == 0 ? v.z : v.x, axis == 1 ? v.z : v.y, axis == 0 ? v.x : axis == 1 ? v.y : v.z);
 }
 
 Shear shearOf(vec3 direction) {
