@@ -92,7 +92,9 @@ int bake(const BakeOptions& options) {
     const std::vector<Integrator> integrators =
         options.onlyDefault ? std::vector<Integrator>{scene.render.integrator} : scene.render.integrators;
     const Variant variant = chooseVariant(prepared, integrators, options.choices);
-    const std::vector<Kernel> kernels = KernelCompiler(options.threads).compile(kernelJobs(variant, integrators));
+    KernelCompiler ownCompiler(options.threads);
+    KernelCompiler& compiler = options.compiler ? *options.compiler : ownCompiler;
+    const std::vector<Kernel> kernels = compiler.compile(kernelJobs(variant, integrators));
     const std::vector<uint8_t> blob = finishBlob(prepared, variant, kernels);
 
     for (const std::string& warning : own.warnings) std::cerr << warning << "\n";

@@ -132,7 +132,7 @@ namespace {
 /// A picture of 32 x 1 squares across the edge of a lamp that fills x > 0 in the plane `distance` before the camera.
 Picture edgePicture(const GpuContext& gpu, double distance, double vfov, const std::string& camera, const std::string& render) {
     const std::string scene = R"({"camera":{"position":[0,0,0],"target":[0,0,-1],"vfov":)" + json(vfov) + camera +
-                              R"(},"render":{"integrator":"path","maxDepth":0,"size":[32,32],"spp":1024)" + render +
+                              R"(},"render":{"integrator":"path","maxDepth":0,"size":[32,32],"spp":256)" + render +
                               R"(},"lights":[)" + rectangleLight({0, -99, -distance}, {99, 0, 0}, {0, 198, 0}, dvec3(1)) + "]," +
                               only(lambert(dvec3(1)), sphere({0, 0, 50}, 1, "m")) + "}";
     return renderScene(gpu, scene);
