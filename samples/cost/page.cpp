@@ -5,6 +5,7 @@
 #include "page_pictures.hpp"
 #include "page_style.hpp"
 #include "plot.hpp"
+#include "recommendation.hpp"
 
 namespace cost {
 namespace {
@@ -79,12 +80,40 @@ std::string insteadOf(const Report& report) {
     return report.samples() < report.sceneSamples ? " instead of the scene's " + std::to_string(report.sceneSamples) : "";
 }
 
+/// What to know beside the answer.
+std::string findingsSection(const Report& report) {
+    std::string items;
+    for (size_t i : findings(report.levers, report.comparisons)) {
+        const Comparison& c = report.comparisons[i];
+        items += element("li", "class=\"" + verdict(c) + "\"", leverSentence(report, c));
+    }
+    if (report.budgetMs > 0) items += element("li", "class=\"trade\"", escaped(budgetSentence(report)));
+    return element("ul", "class=\"findings\"", items);
+}
+
+/// How to get what the first sentence recommends, and by which rule it does.
+std::string howToSection(const Report& report) {
+    std::string lines;
+    for (const std::string& command : recommendedCommands(report)) lines += escaped(command) + "\n";
+    std::string text = element("p", "", recommended(report) ? "To get these settings, type" : "To render it so, type") +
+                       element("pre", "", lines);
+    const std::string keys = recommendedKeys(report);
+    const std::string beside = recommendedOptionsBesideKeys(report);
+    if (!keys.empty())
+        text += element("p", "", "or write into the scene file, beside what its <code>render</code> section holds already,") +
+                element("pre", "", escaped(keys)) +
+                (beside.empty() ? "" : element("p", "", "and give minirt-render <code>" + escaped(beside.substr(1)) + "</code>."));
+    return element("div", "class=\"card howto\"", text + element("p", "class=\"soft\"", escaped(recommendationRule(report))));
+}
+
 std::string head(const Report& report) {
-    std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene));
+    std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene)) +
+                       element("p", "class=\"answer\"", escaped(recommendationSentence(report)));
     text += element(
         "p", "class=\"soft\"",
         escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " + std::to_string(report.height) +
                 " pixels, " + sampleCount(report.samples()) + " a pixel" + insteadOf(report) + ", " + report.date));
+    text += findingsSection(report) + howToSection(report);
     const Measurement& own = report.measurements.front();
     std::string pictures = figure(
         pictureUri(own.picture),
@@ -93,16 +122,6 @@ std::string head(const Report& report) {
     pictures += figure(pictureUri(report.reference.mean), "The reference: every lever at its most accurate, " +
                                                               std::to_string(report.reference.samples) + " samples a pixel");
     return text + element("div", "class=\"hero\"", pictures);
-}
-
-std::string findingsList(const Report& report) {
-    std::string items;
-    for (size_t i : findings(report.levers, report.comparisons)) {
-        const Comparison& c = report.comparisons[i];
-        items += element("li", "class=\"" + verdict(c) + "\"", leverSentence(report, c));
-    }
-    if (report.budgetMs > 0) items += element("li", "class=\"trade\"", escaped(budgetSentence(report)));
-    return element("ul", "class=\"findings\"", items);
 }
 
 Plot plotOf(const Report& report, double width, double height, bool names) {
@@ -194,8 +213,9 @@ std::string row(const Report& report, size_t i) {
     const Measurement& m = report.measurements[i];
     const std::string slowdown = i == 0 ? "" : covers(m.slowdown, 1) ? "in the noise" : signedPercent(m.slowdown.median);
     const std::string spread = number(m.ms.lower) + "–" + number(m.ms.upper);
+    const std::string name = "<b class=\"" + groupOf(report, i) + "\">" + std::to_string(i) + "</b> " + escaped(report.nameOf(i));
     return element("tr", "",
-                   cell(std::to_string(i), groupOf(report, i)) + cell(escaped(report.nameOf(i))) + cell(number(m.ms.median)) +
+                   element("th", "scope=\"row\"", name) + cell(number(m.ms.median)) +
                        cell(spread) + cell(slowdown) + cell(number(m.error.relMse), onFront(report, i) ? "front" : "") +
                        cell(biasCell(report, m)) + cell(percent(m.error.wrongPixels)) + cell(number(m.error.largest)) +
                        cell(number(m.pipelineMs)) + cell(number(static_cast<double>(m.kernelBytes) / 1000)));
@@ -204,14 +224,20 @@ std::string row(const Report& report, size_t i) {
 std::string tableSection(const Report& report) {
     std::string rows;
     for (size_t i : tableOrder(report)) rows += row(report, i);
-    const std::string bias = report.reference.random ? "bias" : "at the same samples";
-    const std::string headings =
-        "<tr><th>No.</th><th>Settings</th><th>ms</th><th>middle half</th><th>time</th><th>relMSE, noise included</th><th>" +
-        bias + "</th><th>wrong, noise included</th><th>largest error</th><th>pipeline ms</th><th>kernel kB</th></tr>";
+    const std::string bias = report.reference.random ? "bias, relMSE" : "relMSE at the same samples";
+    std::string headings = "<th>settings</th>";
+    for (const std::string& heading :
+         {std::string("ms a picture"), std::string("middle half, ms"), std::string("time against the scene's own"),
+          std::string("error (relMSE), noise included"), bias, std::string("wrong pixels, noise included"),
+          std::string("largest error, radiance"), std::string("pipelines, ms"), std::string("kernels, kB")})
+        headings += element("th", "scope=\"col\"", heading);
     return element("h2", "", "All figures") +
            element("div", "class=\"scroll\" tabindex=\"0\"",
-                   element("table", "", element("thead", "", headings) + element("tbody", "", rows))) +
-           element("p", "class=\"soft\"", "Green: on the Pareto front. Names tell what differs from the scene's own settings.");
+                   element("table", "", element("thead", "", element("tr", "", headings)) + element("tbody", "", rows))) +
+           element("p", "class=\"soft\"", "Each row is named by what differs from the scene's own settings. <b>Middle half</b>: the middle half of the repeats "
+                   "took from so many ms to so many. <b>Wrong</b>: off by enough to be seen. <b>Green</b>: on the Pareto front, "
+                   "nothing measured is both faster and more accurate. <b>Pipelines</b> and <b>kernels</b>: what the driver took to "
+                   "translate the programs of the device, once, and how large these are.");
 }
 
 /// What a picture is held against: Whitted's show what a lever does at the same samples.
@@ -323,7 +349,7 @@ std::string foot(const Report& report) {
 }  // namespace
 
 std::string page(const Report& report) {
-    const std::string body = head(report) + findingsList(report) + plotSection(report) + leversSection(report) +
+    const std::string body = head(report) + plotSection(report) + leversSection(report) +
                              tableSection(report) + picturesSection(report) + hardCasesSection(report) + methodSection(report) +
                              foot(report);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
