@@ -59,7 +59,7 @@ td.front { font-weight: 700; color: var(--front); }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: .4rem; margin: .4rem 0 1.2rem; }
 .pair p { grid-column: 1 / -1; margin: 0; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 0 1.4rem; }
-.scale { height: 12px; image-rendering: pixelated; }
+.key { max-width: 30rem; } .scale { height: 12px; image-rendering: pixelated; } .steps { display: flex; justify-content: space-between; }
 code { background: var(--card); border: 1px solid var(--rule); border-radius: 4px; padding: .1em .35em; font-size: .85em; }
 a { color: var(--lever); }
 footer { border-top: 1px solid var(--rule); margin-top: 2rem; padding-top: .6rem; }

@@ -57,7 +57,7 @@ std::vector<double> ticksOf(const Axis& axis) {
 
 /// Of a text in the plot's letters, at most.
 double lengthOf(const std::string& content) {
-    constexpr double kLetter = 6.4;
+    constexpr double kLetter = 7;
     double length = 0;
     for (char c : content) length += (static_cast<unsigned char>(c) & 0xc0) == 0x80 ? 0 : kLetter;
     return length;
@@ -96,6 +96,7 @@ public:
 
 private:
     static constexpr double kLeft = 46, kRight = 12, kTop = 22, kBottom = 40, kMark = 4.5, kOwnMark = 6, kText = 11;
+    static constexpr double kApart = 5;  // two labels side by side, so that numbers do not run together
     static constexpr const char* kFloorText = "the reference's own error";
 
     double floorAt() const { return plot_.floor > 0 ? y_.at(plot_.floor) : 0; }
@@ -140,13 +141,12 @@ private:
         if (p.group == "combination")
             out += "<path d=\"M" + fixed(x - kMark) + " " + fixed(y) + "l4.5-4.5 4.5 4.5-4.5 4.5z\"/>";
         else
-            out += "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(p.group == "own" ? kOwnMark : kMark) + "\"/>";
+            out += "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(p.group == "own" ? kOwnMark : kMark) +
+                   "\"/>";
         return out + "</g>\n";
     }
 
-    std::string contentOf(const PlotPoint& p) const {
-        return plot_.names && !p.name.empty() ? p.label + " " + p.name : p.label;
-    }
+    std::string contentOf(const PlotPoint& p) const { return plot_.names && !p.name.empty() ? p.label + " " + p.name : p.label; }
 
     /// A bar that only spreads the time is no mark: labels may lie on it.
     Box markOf(const PlotPoint& p) const {
@@ -157,11 +157,27 @@ private:
     std::vector<LabelPlace> labelPlaces() const {
         std::vector<LabelWish> wishes;
         wishes.reserve(plot_.points.size());
-        for (const PlotPoint& p : plot_.points) wishes.push_back({markOf(p), lengthOf(contentOf(p)), lengthOf(p.label)});
+        for (const PlotPoint& p : plot_.points)
+            wishes.push_back({markOf(p), lengthOf(contentOf(p)) + kApart, lengthOf(p.label) + kApart});
         const Box area = {x_.from + 1, kTop - 8, plot_.width - x_.from - 2, y_.from - kTop + 8};
-        std::vector<Box> taken;
-        if (floorShows()) taken.push_back({x_.to - lengthOf(kFloorText), floorAt() - kText - 2, lengthOf(kFloorText), kText + 2});
-        return placeLabels(wishes, area, kText, taken);
+        return placeLabels(wishes, area, kText, lines());
+    }
+
+    /// What crosses labels out if it runs through them: the bars, the front, and the text of the reference's own error.
+    std::vector<Box> lines() const {
+        std::vector<Box> boxes;
+        const auto add = [&](double x1, double y1, double x2, double y2) {
+            boxes.push_back({std::min(x1, x2) - 1, std::min(y1, y2) - 1, std::abs(x2 - x1) + 2, std::abs(y2 - y1) + 2});
+        };
+        for (const PlotPoint& p : plot_.points) add(x_.at(p.timeLower), yOf(p), x_.at(p.timeUpper), yOf(p));
+        for (size_t i = 1; i < plot_.front.size(); ++i) {
+            const PlotPoint& before = plot_.points[plot_.front[i - 1]];
+            const PlotPoint& after = plot_.points[plot_.front[i]];
+            add(x_.at(before.time), yOf(before), x_.at(after.time), yOf(before));
+            add(x_.at(after.time), yOf(before), x_.at(after.time), yOf(after));
+        }
+        if (floorShows()) add(x_.to - lengthOf(kFloorText), floorAt() - kText - 2, x_.to, floorAt());
+        return boxes;
     }
 
     std::string leader(const PlotPoint& p, const LabelPlace& place) const {
@@ -171,7 +187,8 @@ private:
     std::string label(const PlotPoint& p, const LabelPlace& place) const {
         constexpr double kDescent = 2;  // of letters, under their line
         if (!place.placed) return "";
-        return text(place.box.x, place.box.y + place.box.height - kDescent, "label", "start", place.shortened ? p.label : contentOf(p));
+        return text(place.box.x + kApart / 2, place.box.y + place.box.height - kDescent, "label", "start",
+                    place.shortened ? p.label : contentOf(p));
     }
 
     const Plot& plot_;

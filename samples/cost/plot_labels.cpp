@@ -30,20 +30,21 @@ bool crosses(const Segment& s, const Box& box) {
     return clip(s.x1, s.x2 - s.x1, box.x, box.x + box.width) && clip(s.y1, s.y2 - s.y1, box.y, box.y + box.height);
 }
 
-/// What leaders keep off.
+/// What labels and leaders keep off beside other labels and marks: lines and marks under leaders, or only what makes a leader point to the wrong label.
 enum class Avoid { all, labels, none };
 
 class Placing {
 public:
-    Placing(const std::vector<LabelWish>& wishes, const Box& area, double height, std::vector<Box> taken)
-        : area_(area), height_(height), taken_(std::move(taken)) {
+    Placing(const std::vector<LabelWish>& wishes, const Box& area, double height, std::vector<Box> lines)
+        : area_(area), height_(height), lines_(std::move(lines)) {
         for (const LabelWish& wish : wishes) marks_.push_back(wish.mark);
     }
 
     LabelPlace place(const LabelWish& wish) {
         LabelPlace place;
         const double everywhere = area_.width + area_.height;
-        place.placed = tryAll(wish.mark, wish.width, kFarthest, Avoid::all, place);
+        for (const Avoid avoid : {Avoid::all, Avoid::labels})
+            place.placed = place.placed || tryAll(wish.mark, wish.width, kFarthest, avoid, place);
         place.shortened = !place.placed;
         for (const Avoid avoid : {Avoid::all, Avoid::labels, Avoid::none})
             place.placed = place.placed || tryAll(wish.mark, wish.shortWidth, everywhere, avoid, place);
@@ -79,13 +80,13 @@ private:
 
     /// Whether a label can be there, and if so puts it into `place`.
     bool suits(const Box& mark, const Box& box, Avoid avoid, LabelPlace& place) const {
-        const auto meets = [&](const Box& other) { return box.meets(other); };
-        if (!area_.holds(box) || std::any_of(marks_.begin(), marks_.end(), meets) ||
-            std::any_of(taken_.begin(), taken_.end(), meets) || std::any_of(labels_.begin(), labels_.end(), meets))
-            return false;
-        if (avoid != Avoid::none &&
-            std::any_of(leaders_.begin(), leaders_.end(), [&](const Segment& leader) { return crosses(leader, box); }))
-            return false;
+        const auto free = [&](const std::vector<Box>& others) {
+            return std::none_of(others.begin(), others.end(), [&](const Box& other) { return box.meets(other); });
+        };
+        const auto under = [&](const Segment& leader) { return crosses(leader, box); };
+        if (!area_.holds(box) || !free(marks_) || !free(labels_)) return false;
+        if (avoid == Avoid::all && !free(lines_)) return false;
+        if (avoid != Avoid::none && std::any_of(leaders_.begin(), leaders_.end(), under)) return false;
         place.box = box;
         place.leaderX = std::clamp(mark.middleX(), box.x, box.x + box.width);
         place.leaderY = std::clamp(mark.middleY(), box.y, box.y + box.height);
@@ -104,7 +105,7 @@ private:
 
     Box area_;
     double height_;
-    std::vector<Box> taken_;
+    std::vector<Box> lines_;
     std::vector<Box> marks_;
     std::vector<Box> labels_;
     std::vector<Segment> leaders_;
@@ -113,8 +114,8 @@ private:
 }  // namespace
 
 std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const Box& area, double height,
-                                    std::vector<Box> taken) {
-    Placing placing(wishes, area, height, std::move(taken));
+                                    std::vector<Box> lines) {
+    Placing placing(wishes, area, height, std::move(lines));
     std::vector<LabelPlace> places;
     places.reserve(wishes.size());
     for (const LabelWish& wish : wishes) places.push_back(placing.place(wish));

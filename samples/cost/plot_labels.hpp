@@ -33,8 +33,8 @@ struct LabelPlace {
     double leaderX = 0, leaderY = 0;  // where that line ends at the box
 };
 
-/// Places labels in the order of the wishes, each as near to its mark as it can be within `area`: no two labels meet, nor does one meet a mark or a box of
-/// `taken`. Where there is room, no leader crosses a label or another mark. The same wishes have the same places.
-std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const Box& area, double height, std::vector<Box> taken);
+/// Places labels in the order of the wishes, each as near to its mark as it can be within `area`: no two labels meet, nor does one meet a mark. Where
+/// there is room, labels keep off `lines` too, and no leader crosses a label or another mark. The same wishes have the same places.
+std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const Box& area, double height, std::vector<Box> lines);
 
 }  // namespace cost
