@@ -252,6 +252,7 @@ std::string tableSection(const Report& report) {
           std::string("largest error, radiance"), std::string("pipelines, ms"), std::string("kernels, kB")})
         headings += element("th", "scope=\"col\"", heading);
     return element("h2", "", "All figures") +
+           element("p", "class=\"soft narrow\"", "The table goes on to the right: push it aside.") +
            element("div", "class=\"scroll\" tabindex=\"0\"",
                    element("table", "", element("thead", "", element("tr", "", headings)) + element("tbody", "", rows))) +
            element(

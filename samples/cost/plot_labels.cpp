@@ -43,8 +43,7 @@ public:
     LabelPlace place(const LabelWish& wish) {
         LabelPlace place;
         const double everywhere = area_.width + area_.height;
-        for (const Avoid avoid : {Avoid::all, Avoid::labels})
-            place.placed = place.placed || tryAll(wish.mark, wish.width, kFarthest, avoid, place);
+        place.placed = tryAll(wish.mark, wish.width, kFarthest, Avoid::all, place);
         place.shortened = !place.placed;
         for (const Avoid avoid : {Avoid::all, Avoid::labels, Avoid::none})
             place.placed = place.placed || tryAll(wish.mark, wish.shortWidth, everywhere, avoid, place);
