@@ -140,7 +140,8 @@ std::string recommendationRule(const Report& report) {
     rule += report.reference.random ? ", as expected at the scene's " + std::to_string(report.sceneSamples) + " samples a pixel."
                                     : ", with at most " + percent(kMoreWrongPixels) + " more of the pixels visibly wrong.";
     return rule + " Of those that are less than " + percent(kSameTime) +
-           " slower than it, the one that changes the fewest settings. It holds for this scene, this view and this device.";
+           " slower than it, the one that changes the fewest settings; timed once more, since the fastest of many may be so by "
+           "chance. It holds for this scene, this view and this device.";
 }
 
 std::vector<std::string> recommendedCommands(const Report& report) {
