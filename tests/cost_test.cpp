@@ -229,7 +229,7 @@ TEST_CASE("sentences give the cost of the accurate setting and what the cheap on
           "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error; without it 12 % of the "
           "pixels look wrong.");
     CHECK(cost::verdict(fresnel) == "keep");
-    CHECK(cost::idleSentence(idleLever()) == "Dispersion is left alone: no medium disperses light.");
+    CHECK(cost::idleSentence(idleLever()) == "Dispersion: left alone, since no medium disperses light.");
 }
 
 TEST_CASE("sentences say where nothing changes, and where nothing can be told") {

@@ -288,8 +288,8 @@ std::string picturesSection(const Report& report) {
     const std::string scale =
         element("div", "class=\"key\"",
                 element("p", "class=\"soft\"",
-                        "Right of each picture is how far its pixels are from the reference, in steps of "
-                        "8-bit sRGB, from 1 to 128 by their logarithm; black is up to " +
+                        "Right of each picture is how far its pixels are from the reference, in steps "
+                        "of a screen (8-bit sRGB), from 1 to 128 by their logarithm; black is up to " +
                             std::to_string(kUnseenSteps) + ", too little to see." +
                             std::string(report.reference.random ? ""
                                                                 : " Where a lever alone is moved, the reference has the same "

@@ -52,7 +52,7 @@ th, td { padding: .35rem .5rem; text-align: right; border-bottom: 1px solid var(
 td { white-space: nowrap; } tbody tr:last-child > * { border-bottom: 0; }
 thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; min-width: 4.6rem; }
 th:first-child { position: sticky; left: 0; background: var(--card); border-right: 1px solid var(--rule); min-width: 8.6rem; text-align: left; font-weight: 400; }
-@media (min-width: 46rem) { th:first-child { min-width: 13rem; } }
+@media (min-width: 46rem) { th:first-child { min-width: 11rem; } }
 td.front { font-weight: 700; color: var(--front); }
 .cases > * { margin: 0; padding: .35rem .4rem; } .cases > * + * { border-top: 1px solid var(--rule); }
 .cases > p { padding-left: 1.5rem; } .cases .held { display: inline-block; min-width: 2.2em; }
