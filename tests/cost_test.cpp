@@ -438,6 +438,13 @@ TEST_CASE("the page is balanced, loads nothing, and escapes what it is told") {
     CHECK(contains(html, "minirtc bake 'glass &amp; &lt;ice&gt;.json'"));
 }
 
+TEST_CASE("the page warns of times that were unsteady") {
+    cost::Report report = sampleReport();
+    CHECK_FALSE(contains(cost::page(report), "unsteady"));
+    report.measurements[0].ms = {10, 9, 11};
+    CHECK(contains(cost::page(report), "differs by 20\u00a0%"));
+}
+
 TEST_CASE("every point is in both plots, inside of their boxes") {
     const cost::Report report = sampleReport();
     const std::string html = cost::page(report);

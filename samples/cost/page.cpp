@@ -122,6 +122,17 @@ std::string howToSection(const Report& report) {
     return element("div", "class=\"card howto\"", text + element("p", "class=\"soft\"", prose(recommendationRule(report))));
 }
 
+/// Where other work took the device's time meanwhile.
+std::string unsteadyWarning(const Report& report) {
+    constexpr double kUnsteady = 0.1;
+    const Spread& ms = report.measurements.front().ms;
+    const double share = (ms.upper - ms.lower) / ms.median;
+    if (share <= kUnsteady) return "";
+    return element("p", "class=\"warning\"",
+                   prose("Times were unsteady: the middle half of the repeats of the same picture differs by " + percent(share) +
+                         ". Do not trust smaller differences in time, and measure again while nothing else runs."));
+}
+
 std::string head(const Report& report) {
     std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene)) +
                        element("p", "class=\"answer\"", prose(recommendationSentence(report)));
@@ -129,7 +140,7 @@ std::string head(const Report& report) {
         "p", "class=\"soft\"",
         escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " + std::to_string(report.height) +
                 " pixels, " + sampleCount(report.samples()) + " a pixel" + insteadOf(report) + ", " + report.date));
-    text += findingsSection(report) + howToSection(report);
+    text += unsteadyWarning(report) + findingsSection(report) + howToSection(report);
     const Measurement& own = report.measurements.front();
     std::string pictures = figure(
         pictureUri(own.picture),
