@@ -85,6 +85,7 @@ TEST_CASE("a scene file's levers are measured against a reference that is more a
     CHECK(alone(report, "samples", "8")["error"]["relmse"] < own["error"]["relmse"]);
     CHECK(alone(report, "depth", "1")["bias"]["relmse"] > own["bias"]["relmse"]);
     CHECK(report["findings"].size() == 2);
+    CHECK(report["recommendation"]["commands"].size() == 2);
     for (const auto& lever : report["levers"])
         if (lever["name"] == "dispersion") CHECK(lever["applies"] == false);
 }

@@ -9,6 +9,8 @@
 #include "../samples/cost/page_pictures.hpp"
 #include "../samples/cost/pareto.hpp"
 #include "../samples/cost/plot.hpp"
+#include "../samples/cost/plot_labels.hpp"
+#include "../samples/cost/recommendation.hpp"
 #include "../samples/cost/report_json.hpp"
 #include "../samples/cost/search.hpp"
 
@@ -80,6 +82,8 @@ cost::Measurement measured(cost::Configuration configuration, double slowdown, d
 cost::Report sampleReport() {
     cost::Report report;
     report.scene = "glass & <ice>";
+    report.file = "glass & <ice>.json";
+    report.baked = true;
     report.command = "minirt-cost \"a b.json\" -o a.html";
     report.date = "2026-01-01";
     report.width = 40, report.height = 30;
@@ -96,6 +100,19 @@ cost::Report sampleReport() {
     report.front = {5, 1, 0, 4};
     report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
     return report;
+}
+
+/// Points around the middle of `area`, `spread` of its sides apart, with labels `width` wide.
+std::vector<cost::LabelWish> crowd(int count, const cost::Box& area, double spread, double width) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> unit;
+    std::vector<cost::LabelWish> wishes;
+    for (int i = 0; i < count; ++i) {
+        const double x = area.middleX() + area.width * spread * unit(random);
+        const double y = area.middleY() + area.height * spread * unit(random);
+        wishes.push_back({{x, y, 9, 9}, width, 13});
+    }
+    return wishes;
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -212,7 +229,7 @@ TEST_CASE("sentences give the cost of the accurate setting and what the cheap on
           "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error; without it 12 % of the "
           "pixels look wrong.");
     CHECK(cost::verdict(fresnel) == "keep");
-    CHECK(cost::idleSentence(idleLever()) == "Dispersion is left alone: no medium disperses light.");
+    CHECK(cost::idleSentence(idleLever()) == "Dispersion: left alone, since no medium disperses light.");
 }
 
 TEST_CASE("sentences say where nothing changes, and where nothing can be told") {
@@ -310,6 +327,87 @@ TEST_CASE("a budget buys the least error that fits, and says what it gives up") 
     CHECK(cost::fastestMs(report.levers, report.measurements, 2) == doctest::Approx(2.5));
 }
 
+TEST_CASE("what is recommended is the fastest that keeps the quality, with the fewest settings changed") {
+    cost::Report report = sampleReport();
+    CHECK(cost::recommended(report) == 0);
+    CHECK(contains(cost::recommendationSentence(report), "Keep the scene's own settings"));
+    CHECK(cost::recommendedKeys(report).empty());
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.0104, 0.011));
+    CHECK(cost::recommended(report) == 6);
+    CHECK(cost::recommendationSentence(report) ==
+          "Take Schlick's Fresnel: 20 % less time (8.00 instead of 10.0 ms a picture) and 4 % more error.");
+    report.measurements.push_back(measured({0, 1, 2}, 0.79, 0.0104, 0.011));  // as fast, but changes more
+    CHECK(cost::recommended(report) == 6);
+    report.measurements.back().slowdown = {0.7, 0.69, 0.71};
+    CHECK(cost::recommended(report) == 7);
+    report.measurements.back().sameSamples.wrongPixels = 0.02;  // which is seen
+    CHECK(cost::recommended(report) == 6);
+    report.measurements[6].error.relMse = 0.0106;
+    CHECK(cost::recommended(report) == 0);
+    report.measurements[6].error.relMse = 0.0104;
+    report.measurements[6].slowdown = {0.8, 0.7, 0.96};  // repeats differ by more
+    CHECK(cost::recommended(report) == 0);
+}
+
+TEST_CASE("of noisy pictures the error counts that the scene's own samples leave") {
+    cost::Report report = sampleReport();
+    report.reference.random = true;
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.0102, 0));
+    report.measurements.back().bias = {0.0004, 0.0001};
+    CHECK(cost::recommended(report) == 0);  // at 64 samples instead of 4 the bias is more than the noise
+    report.sceneSamples = 4;
+    CHECK(cost::recommended(report) == 6);
+}
+
+TEST_CASE("what is recommended can be typed, or written into the scene file") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
+    CHECK(cost::recommendedCommands(report) ==
+          std::vector<std::string>{"minirtc bake 'glass & <ice>.json' -o 'glass & <ice>.mrt' --set fresnel=schlick",
+                                   "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32"});
+    CHECK(cost::recommendedKeys(report) == R"("render": {"spp": 32, "accuracy": {"fresnel": "schlick"}})");
+    CHECK(contains(cost::recommendationSentence(report), "Take Schlick's Fresnel and 32 samples a pixel: 50 % less time"));
+    report.baked = false;
+    report.file = "it's.mrt";
+    CHECK(cost::recommendedCommands(report) ==
+          std::vector<std::string>{R"(minirt-render 'it'\''s.mrt' -o 'glass & <ice>.png' --spp 32)"});
+    CHECK(cost::recommendedKeys(report).empty());
+    CHECK(cost::shellWord("scenes/a-b_1.json") == "scenes/a-b_1.json");
+    CHECK(cost::shellWord("") == "''");
+}
+
+TEST_CASE("no two labels of a crowded plot meet, nor do labels and points") {
+    for (const double width : {300.0, 820.0}) {
+        CAPTURE(width);
+        const cost::Box area = {46, 14, width, 290};
+        const std::vector<cost::LabelWish> wishes = crowd(60, area, 0.08, width > 500 ? 120 : 13);
+        const std::vector<cost::LabelPlace> places = cost::placeLabels(wishes, area, 11, {});
+        for (size_t i = 0; i < places.size(); ++i) {
+            REQUIRE(places[i].placed);
+            CHECK(area.holds(places[i].box));
+            CHECK(places[i].box.width == (places[i].shortened ? 13 : wishes[i].width));
+            for (size_t k = 0; k < places.size(); ++k) {
+                CHECK_FALSE(places[i].box.meets(wishes[k].mark));
+                if (k != i) CHECK_FALSE(places[i].box.meets(places[k].box));
+            }
+        }
+    }
+}
+
+TEST_CASE("where there is room, no leader crosses a label") {
+    const cost::Box area = {46, 14, 820, 420};
+    const std::vector<cost::LabelWish> wishes = crowd(25, area, 0.15, 120);
+    const std::vector<cost::LabelPlace> places = cost::placeLabels(wishes, area, 11, {});
+    for (size_t i = 0; i < places.size(); ++i)
+        for (size_t k = 0; k < places.size(); ++k)
+            for (double t = 0; places[i].leader && k != i && t <= 1; t += 0.01) {
+                const cost::Box& mark = wishes[i].mark;
+                const double x = mark.middleX() + t * (places[i].leaderX - mark.middleX());
+                const double y = mark.middleY() + t * (places[i].leaderY - mark.middleY());
+                CHECK_FALSE(places[k].box.meets({x, y, 0, 0}));
+            }
+}
+
 TEST_CASE("base64 is that of RFC 4648") {
     const auto encoded = [](const std::string& text) { return cost::base64({text.begin(), text.end()}); };
     CHECK(encoded("") == "");
@@ -331,10 +429,20 @@ TEST_CASE("the page is balanced, loads nothing, and escapes what it is told") {
     CHECK(contains(html, "glass &amp; &lt;ice&gt;"));
     CHECK_FALSE(contains(html, "<ice>"));
     CHECK(contains(html, "&quot;a b.json&quot;"));
-    CHECK(contains(html, "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time"));
+    CHECK(contains(html, "Exact Fresnel instead of Schlick's Fresnel costs 2\u00a0% more time"));
     CHECK(contains(html, "no medium disperses light"));
-    CHECK(contains(html, "Nothing fits 1.00 ms"));
+    CHECK(contains(html, "Nothing fits 1.00\u00a0ms"));
     CHECK(contains(html, "width=device-width"));
+    const size_t answer = html.find("Keep the scene's own settings");
+    CHECK(answer < html.find("<img"));
+    CHECK(contains(html, "minirtc bake 'glass &amp; &lt;ice&gt;.json'"));
+}
+
+TEST_CASE("the page warns of times that were unsteady") {
+    cost::Report report = sampleReport();
+    CHECK_FALSE(contains(cost::page(report), "unsteady"));
+    report.measurements[0].ms = {10, 9, 11};
+    CHECK(contains(cost::page(report), "differs by 20\u00a0%"));
 }
 
 TEST_CASE("every point is in both plots, inside of their boxes") {
@@ -356,5 +464,7 @@ TEST_CASE("the JSON holds every measurement with its settings by name") {
     CHECK(json["measurements"][2]["settings"]["fresnel"] == "schlick");
     CHECK(json["measurements"][5]["kind"] == "combination");
     CHECK(json["findings"].size() == 2);
+    CHECK(json["recommendation"]["changes"] == false);
+    CHECK(json["recommendation"]["commands"].size() == 2);
     CHECK(json["levers"][1]["reason"] == "no medium disperses light");
 }

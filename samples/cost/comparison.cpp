@@ -165,7 +165,7 @@ std::string sentence(const Lever& lever, const Comparison& c) {
 }
 
 std::string idleSentence(const Lever& lever) {
-    return lever.title + " is left alone: " + lever.idle + ".";
+    return lever.title + ": left alone, since " + lever.idle + ".";
 }
 
 std::string verdict(const Comparison& c) {

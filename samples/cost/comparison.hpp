@@ -31,7 +31,7 @@ std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const st
 /// "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error." The same words for the same numbers.
 std::string sentence(const Lever& lever, const Comparison& comparison);
 
-/// Of a lever that can change nothing: "Dispersion is left alone: no medium disperses light."
+/// Of a lever that can change nothing: "Dispersion: left alone, since no medium disperses light."
 std::string idleSentence(const Lever& lever);
 
 /// What to do: "keep", "spare", "trade", "either".

@@ -8,6 +8,7 @@
 #include "bake_levers.hpp"
 #include "hard_case_levers.hpp"
 #include "page.hpp"
+#include "recommendation.hpp"
 #include "report_json.hpp"
 #include "study.hpp"
 
@@ -93,6 +94,8 @@ cost::Report run(const Options& options) {
 
 /// What a person without the page wants to know.
 void print(const cost::Report& report) {
+    std::cout << recommendationSentence(report) << "\n";
+    for (const std::string& command : recommendedCommands(report)) std::cout << "  " << command << "\n";
     for (const cost::Comparison& c : report.comparisons)
         if (c.leading) std::cout << sentence(report.levers[c.lever], c) << "\n";
     if (report.budgetMs > 0) std::cout << budgetSentence(report) << "\n";
@@ -107,6 +110,7 @@ void study(const Options& options, const std::string& command) {
     }
     cost::Report report = run(options);
     report.scene = std::filesystem::path(options.scene).stem().string();
+    report.file = options.scene;
     report.command = command;
     report.date = today();
     write(options.output, cost::page(report));
@@ -124,7 +128,7 @@ int main(int argc, char** argv) {
     app.failure_message(oneLineFailure);
     CLI11_PARSE(app, argc, argv);
     std::string command = "minirt-cost";
-    for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+    for (int i = 1; i < argc; ++i) command += " " + cost::shellWord(argv[i]);
     try {
         study(options, command);
     } catch (const std::exception& error) {

@@ -5,12 +5,21 @@
 #include "page_pictures.hpp"
 #include "page_style.hpp"
 #include "plot.hpp"
+#include "recommendation.hpp"
 
 namespace cost {
 namespace {
 
 std::string element(const std::string& name, const std::string& attributes, const std::string& content) {
     return "<" + name + (attributes.empty() ? "" : " " + attributes) + ">" + content + "</" + name + ">\n";
+}
+
+/// Of sentences: numbers stay on the line of their unit.
+std::string prose(const std::string& text) {
+    std::string out = escaped(text);
+    for (const char* unit : {" %", " ms"})
+        for (size_t at = out.find(unit); at != std::string::npos; at = out.find(unit, at + 1)) out.replace(at, 1, "\u00a0");
+    return out;
 }
 
 std::string image(const std::string& uri, const std::string& alternative) {
@@ -66,8 +75,7 @@ std::vector<size_t> pictured(const Report& report) {
 std::string leverSentence(const Report& report, const Comparison& c) {
     const std::vector<size_t> shown = pictured(report);
     const bool linked = std::find(shown.begin(), shown.end(), c.measurement) != shown.end();
-    return escaped(sentence(report.levers[c.lever], c)) +
-           (linked ? " <a href=\"#" + anchor(c.measurement) + "\">Where?</a>" : "");
+    return prose(sentence(report.levers[c.lever], c)) + (linked ? " <a href=\"#" + anchor(c.measurement) + "\">Where?</a>" : "");
 }
 
 std::string sampleCount(uint32_t count) {
@@ -79,12 +87,60 @@ std::string insteadOf(const Report& report) {
     return report.samples() < report.sceneSamples ? " instead of the scene's " + std::to_string(report.sceneSamples) : "";
 }
 
+/// What to know beside the answer.
+std::string findingsSection(const Report& report) {
+    std::string items;
+    for (size_t i : findings(report.levers, report.comparisons)) {
+        const Comparison& c = report.comparisons[i];
+        items += element("li", "class=\"" + verdict(c) + "\"", chip(c) + " " + leverSentence(report, c));
+    }
+    if (report.budgetMs > 0) items += element("li", "class=\"trade\"", prose(budgetSentence(report)));
+    const std::string words =
+        "<b>Error</b>: how far a picture is from the reference, in which all is at its most accurate; 0 is no difference. "
+        "<b>Look "
+        "wrong</b>: off by more than " +
+        std::to_string(kUnseenSteps) +
+        " of a screen's 255 steps. <b>Keep</b>: worth its time. <b>Spare</b>: do without. More under <a href=\"#method\">how "
+        "this "
+        "was measured</a>.";
+    return element("ul", "class=\"findings\"", items) + element("p", "class=\"soft\"", words);
+}
+
+/// How to get what the first sentence recommends, and by which rule it does.
+std::string howToSection(const Report& report) {
+    std::string lines;
+    for (const std::string& command : recommendedCommands(report)) lines += escaped(command) + "\n";
+    std::string text = element("p", "", recommended(report) ? "To get these settings, type" : "To render it so, type") +
+                       element("pre", "", lines);
+    const std::string keys = recommendedKeys(report);
+    const std::string beside = recommendedOptionsBesideKeys(report);
+    if (!keys.empty())
+        text +=
+            element("p", "", "or write into the scene file, beside what its <code>render</code> section holds already,") +
+            element("pre", "", escaped(keys)) +
+            (beside.empty() ? "" : element("p", "", "and give minirt-render <code>" + escaped(beside.substr(1)) + "</code>."));
+    return element("div", "class=\"card howto\"", text + element("p", "class=\"soft\"", prose(recommendationRule(report))));
+}
+
+/// Where other work took the device's time meanwhile.
+std::string unsteadyWarning(const Report& report) {
+    constexpr double kUnsteady = 0.1;
+    const Spread& ms = report.measurements.front().ms;
+    const double share = (ms.upper - ms.lower) / ms.median;
+    if (share <= kUnsteady) return "";
+    return element("p", "class=\"warning\"",
+                   prose("Times were unsteady: the middle half of the repeats of the same picture differs by " + percent(share) +
+                         ". Do not trust smaller differences in time, and measure again while nothing else runs."));
+}
+
 std::string head(const Report& report) {
-    std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene));
+    std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene)) +
+                       element("p", "class=\"answer\"", prose(recommendationSentence(report)));
     text += element(
         "p", "class=\"soft\"",
         escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " + std::to_string(report.height) +
                 " pixels, " + sampleCount(report.samples()) + " a pixel" + insteadOf(report) + ", " + report.date));
+    text += unsteadyWarning(report) + findingsSection(report) + howToSection(report);
     const Measurement& own = report.measurements.front();
     std::string pictures = figure(
         pictureUri(own.picture),
@@ -93,16 +149,6 @@ std::string head(const Report& report) {
     pictures += figure(pictureUri(report.reference.mean), "The reference: every lever at its most accurate, " +
                                                               std::to_string(report.reference.samples) + " samples a pixel");
     return text + element("div", "class=\"hero\"", pictures);
-}
-
-std::string findingsList(const Report& report) {
-    std::string items;
-    for (size_t i : findings(report.levers, report.comparisons)) {
-        const Comparison& c = report.comparisons[i];
-        items += element("li", "class=\"" + verdict(c) + "\"", leverSentence(report, c));
-    }
-    if (report.budgetMs > 0) items += element("li", "class=\"trade\"", escaped(budgetSentence(report)));
-    return element("ul", "class=\"findings\"", items);
 }
 
 Plot plotOf(const Report& report, double width, double height, bool names) {
@@ -131,7 +177,7 @@ std::string plotSection(const Report& report) {
         "stroke=\"currentColor\" stroke-width=\"1.6\"/></svg>several moved</li>"
         "<li><svg viewBox=\"0 0 12 12\"><path d=\"M0 6H12\" stroke=\"var(--front)\" stroke-width=\"2\"/></svg>Pareto front: "
         "nothing measured is both faster and more accurate</li>";
-    const std::string svgs = plotSvg(plotOf(report, 360, 340, false)) + plotSvg(plotOf(report, 860, 480, true));
+    const std::string svgs = plotSvg(plotOf(report, 320, 330, false)) + plotSvg(plotOf(report, 860, 480, true));
     return element("h2", "", "Error against time") +
            element("div", "class=\"card\"", svgs + element("ul", "class=\"legend\"", keys)) +
            element("p", "class=\"soft\"",
@@ -146,13 +192,17 @@ std::string leversSection(const Report& report) {
     for (const Lever& lever : report.levers)
         if (!lever.idle.empty())
             items +=
-                element("li", "", "<span class=\"chip either\">idle</span>" + element("span", "", escaped(idleSentence(lever))));
+                element("li", "", "<span class=\"chip either\">idle</span>" + element("span", "", prose(idleSentence(lever))));
     for (const Failure& f : report.failures)
         items += element("li", "", "<span class=\"chip either\">failed</span>" + element("span", "", escaped(f.reason)));
     const std::string key =
+        "A lever is a setting that trades accuracy for time. Each sentence holds a more accurate setting against a cheaper one; "
+        "one "
+        "of the two is the scene's own. "
         "<b>keep</b>: costs no time, or the error falls by a larger factor than the time grows. <b>trade</b>: more accurate, but "
         "the "
-        "time grows by the larger factor. <b>spare</b>: costs time for nothing. <b>either</b>: no difference. How to set each: "
+        "time grows by the larger factor. <b>spare</b>: costs time for nothing, do without. <b>idle</b>: can change nothing "
+        "here. <b>either</b>: no difference. How to set each: "
         "<code>minirtc levers</code>.";
     return element("h2", "", "Each lever, what removes the most error for its time first") +
            element("ul", "class=\"levers\"", items) + element("p", "class=\"soft\"", key);
@@ -194,24 +244,35 @@ std::string row(const Report& report, size_t i) {
     const Measurement& m = report.measurements[i];
     const std::string slowdown = i == 0 ? "" : covers(m.slowdown, 1) ? "in the noise" : signedPercent(m.slowdown.median);
     const std::string spread = number(m.ms.lower) + "–" + number(m.ms.upper);
+    const std::string name = "<b class=\"" + groupOf(report, i) + "\">" + std::to_string(i) + "</b> " + escaped(report.nameOf(i));
     return element("tr", "",
-                   cell(std::to_string(i), groupOf(report, i)) + cell(escaped(report.nameOf(i))) + cell(number(m.ms.median)) +
-                       cell(spread) + cell(slowdown) + cell(number(m.error.relMse), onFront(report, i) ? "front" : "") +
-                       cell(biasCell(report, m)) + cell(percent(m.error.wrongPixels)) + cell(number(m.error.largest)) +
-                       cell(number(m.pipelineMs)) + cell(number(static_cast<double>(m.kernelBytes) / 1000)));
+                   element("th", "scope=\"row\"", name) + cell(number(m.ms.median)) + cell(spread) + cell(slowdown) +
+                       cell(number(m.error.relMse), onFront(report, i) ? "front" : "") + cell(biasCell(report, m)) +
+                       cell(percent(m.error.wrongPixels)) + cell(number(m.error.largest)) + cell(number(m.pipelineMs)) +
+                       cell(number(static_cast<double>(m.kernelBytes) / 1000)));
 }
 
 std::string tableSection(const Report& report) {
     std::string rows;
     for (size_t i : tableOrder(report)) rows += row(report, i);
-    const std::string bias = report.reference.random ? "bias" : "at the same samples";
-    const std::string headings =
-        "<tr><th>No.</th><th>Settings</th><th>ms</th><th>middle half</th><th>time</th><th>relMSE, noise included</th><th>" +
-        bias + "</th><th>wrong, noise included</th><th>largest error</th><th>pipeline ms</th><th>kernel kB</th></tr>";
+    const std::string bias = report.reference.random ? "bias, relMSE" : "relMSE at the same samples";
+    std::string headings = "<th>settings</th>";
+    for (const std::string& heading :
+         {std::string("ms a picture"), std::string("middle half, ms"), std::string("time against the scene's own"),
+          std::string("error (relMSE), noise included"), bias, std::string("wrong pixels, noise included"),
+          std::string("largest error, radiance"), std::string("pipelines, ms"), std::string("kernels, kB")})
+        headings += element("th", "scope=\"col\"", heading);
     return element("h2", "", "All figures") +
+           element("p", "class=\"soft narrow\"", "The table goes on to the right: push it aside.") +
            element("div", "class=\"scroll\" tabindex=\"0\"",
-                   element("table", "", element("thead", "", headings) + element("tbody", "", rows))) +
-           element("p", "class=\"soft\"", "Green: on the Pareto front. Names tell what differs from the scene's own settings.");
+                   element("table", "", element("thead", "", element("tr", "", headings)) + element("tbody", "", rows))) +
+           element(
+               "p", "class=\"soft\"",
+               "Each row is named by what differs from the scene's own settings. <b>Middle half</b>: the middle half of the "
+               "repeats "
+               "took from so many ms to so many. <b>Wrong</b>: off by enough to be seen. <b>Green</b>: on the Pareto front, "
+               "nothing measured is both faster and more accurate. <b>Pipelines</b> and <b>kernels</b>: what the driver took to "
+               "translate the programs of the device, once, and how large these are.");
 }
 
 /// What a picture is held against: Whitted's show what a lever does at the same samples.
@@ -236,15 +297,18 @@ std::string picturesSection(const Report& report) {
     std::string pairs;
     for (size_t i : pictured(report)) pairs += picturePair(report, i, report.nameOf(i));
     const std::string scale =
-        element("div", "class=\"pair\"",
+        element("div", "class=\"key\"",
                 element("p", "class=\"soft\"",
-                        "Right of each picture is how far its pixels are from the reference, in steps of "
-                        "8-bit sRGB, from 1 to 128 by their logarithm; black is up to " +
+                        "Right of each picture is how far its pixels are from the reference, in steps "
+                        "of a screen (8-bit sRGB), from 1 to 128 by their logarithm; black is up to " +
                             std::to_string(kUnseenSteps) + ", too little to see." +
                             std::string(report.reference.random ? ""
                                                                 : " Where a lever alone is moved, the reference has the same "
                                                                   "samples, so that only what the lever does shows.")) +
-                    "<img class=\"scale\" src=\"" + differenceScaleUri() + "\" alt=\"the scale\">");
+                    "<img class=\"scale\" src=\"" + differenceScaleUri() + "\" alt=\"the scale\">" +
+                    element("div", "class=\"steps soft\"",
+                            "<span>1</span><span>2</span><span>4</span><span>8</span><span>16</span><span>32</span><span>64</"
+                            "span><span>128</span>"));
     return element("h2", "", "Pictures and where they are wrong") + scale + element("div", "class=\"pictures\"", pairs);
 }
 
@@ -310,7 +374,7 @@ std::string methodSection(const Report& report) {
                         " variants of the scene, before the first picture.");
     if (!report.baked)
         text += element("p", "", "From a blob only levers of the rendering can move; those of the bake need the scene file.");
-    return element("h2", "", "How this was measured") + text;
+    return element("h2", "id=\"method\"", "How this was measured") + text;
 }
 
 std::string foot(const Report& report) {
@@ -323,9 +387,8 @@ std::string foot(const Report& report) {
 }  // namespace
 
 std::string page(const Report& report) {
-    const std::string body = head(report) + findingsList(report) + plotSection(report) + leversSection(report) +
-                             tableSection(report) + picturesSection(report) + hardCasesSection(report) + methodSection(report) +
-                             foot(report);
+    const std::string body = head(report) + plotSection(report) + leversSection(report) + tableSection(report) +
+                             picturesSection(report) + hardCasesSection(report) + methodSection(report) + foot(report);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
            "content=\"width=device-width, initial-scale=1\">\n" +
            element("title", "", "What accuracy costs: " + escaped(report.scene)) + element("style", "", kPageStyle) +

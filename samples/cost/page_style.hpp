@@ -24,6 +24,10 @@ figcaption { margin-top: .25rem; }
 .findings { margin: 1rem 0; padding: 0; list-style: none; display: grid; gap: .6rem; }
 .findings li { background: var(--card); border: 1px solid var(--rule); border-left: 5px solid var(--either); border-radius: 6px; padding: .7rem .9rem; font-size: 1.08rem; }
 .findings .keep { border-left-color: var(--keep); } .findings .spare { border-left-color: var(--spare); } .findings .trade { border-left-color: var(--trade); }
+.answer { font-size: 1.3rem; line-height: 1.35; font-weight: 600; margin: .6rem 0; }
+.warning { color: var(--spare); }
+.howto { padding: .3rem .9rem; margin: 1rem 0; }
+pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); border-radius: 4px; background: var(--paper); font-size: .85rem; white-space: pre-wrap; overflow-wrap: anywhere; }
 .chip { display: inline-block; min-width: 3.7em; padding: 0 .5em; border: 1px solid currentColor; border-radius: 1em; font-size: .78rem; text-align: center; }
 .chip.keep { color: var(--keep); } .chip.spare { color: var(--spare); } .chip.trade { color: var(--trade); } .chip.either { color: var(--either); }
 .levers { list-style: none; padding: 0; margin: 0; }
@@ -44,10 +48,12 @@ figcaption { margin-top: .25rem; }
 .legend { display: flex; flex-wrap: wrap; gap: .2rem 1.1rem; margin: .3rem .2rem; padding: 0; list-style: none; font-size: .88rem; }
 .legend svg { width: 14px; height: 14px; vertical-align: -2px; margin-right: .3em; overflow: visible; }
 .scroll { overflow-x: auto; border: 1px solid var(--rule); border-radius: 6px; background: var(--card); }
-table { border-collapse: collapse; font-size: .86rem; width: 100%; font-variant-numeric: tabular-nums; }
-th, td { padding: .35rem .6rem; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
-th { color: var(--soft); font-weight: 600; vertical-align: bottom; } tbody tr:last-child td { border-bottom: 0; }
-th:nth-child(2), td:nth-child(2) { text-align: left; white-space: normal; min-width: 11rem; }
+table { border-collapse: separate; border-spacing: 0; font-size: .86rem; width: 100%; font-variant-numeric: tabular-nums; }
+th, td { padding: .35rem .5rem; text-align: right; border-bottom: 1px solid var(--rule); }
+td { white-space: nowrap; } tbody tr:last-child > * { border-bottom: 0; }
+thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; min-width: 4.6rem; }
+th:first-child { position: sticky; left: 0; background: var(--card); border-right: 1px solid var(--rule); min-width: 8.6rem; text-align: left; font-weight: 400; }
+@media (min-width: 46rem) { th:first-child { min-width: 11rem; } }
 td.front { font-weight: 700; color: var(--front); }
 .cases > * { margin: 0; padding: .35rem .4rem; } .cases > * + * { border-top: 1px solid var(--rule); }
 .cases > p { padding-left: 1.5rem; } .cases .held { display: inline-block; min-width: 2.2em; }
@@ -55,7 +61,7 @@ td.front { font-weight: 700; color: var(--front); }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: .4rem; margin: .4rem 0 1.2rem; }
 .pair p { grid-column: 1 / -1; margin: 0; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 0 1.4rem; }
-.scale { height: 12px; image-rendering: pixelated; }
+.key { max-width: 30rem; } .scale { height: 12px; image-rendering: pixelated; } .steps { display: flex; justify-content: space-between; }
 code { background: var(--card); border: 1px solid var(--rule); border-radius: 4px; padding: .1em .35em; font-size: .85em; }
 a { color: var(--lever); }
 footer { border-top: 1px solid var(--rule); margin-top: 2rem; padding-top: .6rem; }

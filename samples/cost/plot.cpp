@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plot_labels.hpp"
+
 namespace cost {
 namespace {
 
@@ -53,13 +55,13 @@ std::vector<double> ticksOf(const Axis& axis) {
     return ticks;
 }
 
-struct Box {
-    double x, y, width, height;
-
-    bool meets(const Box& other) const {
-        return x < other.x + other.width && other.x < x + width && y < other.y + other.height && other.y < y + height;
-    }
-};
+/// Of a text in the plot's letters, at most.
+double lengthOf(const std::string& content) {
+    constexpr double kLetter = 7;
+    double length = 0;
+    for (char c : content) length += (static_cast<unsigned char>(c) & 0xc0) == 0x80 ? 0 : kLetter;
+    return length;
+}
 
 std::string text(double x, double y, const std::string& cssClass, const std::string& anchor, const std::string& content) {
     return "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" class=\"" + cssClass + "\" text-anchor=\"" + anchor + "\">" +
@@ -85,14 +87,20 @@ public:
         std::string out = "<svg class=\"plot " + plot_.cssClass + "\" viewBox=\"0 0 " + fixed(plot_.width) + " " +
                           fixed(plot_.height) + "\" role=\"img\" aria-label=\"Error against time, both by their logarithm\">\n";
         out += axes() + front();
-        for (const PlotPoint& p : plot_.points) taken_.push_back({x_.at(p.time) - kMark, yOf(p) - kMark, 2 * kMark, 2 * kMark});
+        const std::vector<LabelPlace> places = labelPlaces();
+        for (size_t i = 0; i < places.size(); ++i) out += leader(plot_.points[i], places[i]);
         for (size_t i = plot_.points.size(); i-- > 0;) out += mark(plot_.points[i]);
-        for (const PlotPoint& p : plot_.points) out += label(p);
+        for (size_t i = 0; i < places.size(); ++i) out += label(plot_.points[i], places[i]);
         return out + "</svg>\n";
     }
 
 private:
-    static constexpr double kLeft = 46, kRight = 12, kTop = 22, kBottom = 40, kMark = 4.5, kText = 11;
+    static constexpr double kLeft = 46, kRight = 12, kTop = 22, kBottom = 40, kMark = 4.5, kOwnMark = 6, kText = 11;
+    static constexpr double kApart = 5;  // two labels side by side, so that numbers do not run together
+    static constexpr const char* kFloorText = "the reference's own error";
+
+    double floorAt() const { return plot_.floor > 0 ? y_.at(plot_.floor) : 0; }
+    bool floorShows() const { return floorAt() > y_.to && floorAt() < y_.from; }
 
     double yOf(const PlotPoint& p) const { return y_.at(std::max(p.error, 1e-9)); }
 
@@ -108,10 +116,8 @@ private:
         }
         out += text((x_.from + x_.to) / 2, plot_.height - 6, "axis", "middle", "time for a picture, ms");
         out += text(4, 12, "axis", "start", "error (relMSE): less is better");
-        const double floor = plot_.floor > 0 ? y_.at(plot_.floor) : 0;
-        if (floor > y_.to && floor < y_.from)
-            out +=
-                line(x_.from, floor, x_.to, floor, "floor") + text(x_.to, floor - 3, "tick", "end", "the reference's own error");
+        if (floorShows())
+            out += line(x_.from, floorAt(), x_.to, floorAt(), "floor") + text(x_.to, floorAt() - 3, "tick", "end", kFloorText);
         return out;
     }
 
@@ -135,41 +141,58 @@ private:
         if (p.group == "combination")
             out += "<path d=\"M" + fixed(x - kMark) + " " + fixed(y) + "l4.5-4.5 4.5 4.5-4.5 4.5z\"/>";
         else
-            out += "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + (p.group == "own" ? "6.0" : "4.5") + "\"/>";
+            out += "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(p.group == "own" ? kOwnMark : kMark) +
+                   "\"/>";
         return out + "</g>\n";
     }
 
-    /// Beside its mark, at the first place that is free; farther away with a line to the mark.
-    std::string label(const PlotPoint& p) {
-        const std::string content = plot_.names && !p.name.empty() ? p.label + " " + p.name : p.label;
-        double length = 0;
-        for (char c : content) length += (static_cast<unsigned char>(c) & 0xc0) == 0x80 ? 0 : 0.6 * kText;
-        const double x = x_.at(p.time);
-        const double y = yOf(p);
-        for (double distance = 8; distance < 120; distance += 6) {
-            for (int step = 0; step < 16; ++step) {
-                const int turns = (step + 1) / 2 * (step % 2 ? -1 : 1);
-                const double angle = turns * 0.3927 - 0.6;  // first above to the right, clear of the bar
-                const double cx = x + distance * std::cos(angle);
-                const double cy = y + distance * std::sin(angle);
-                const Box box = {std::cos(angle) >= -0.1 ? cx : cx - length, cy - kText / 2, length, kText};
-                if (!isFree(box)) continue;
-                taken_.push_back(box);
-                const std::string leader = distance > 14 ? line(x, y, cx, cy, "leader") : "";
-                return leader + text(box.x, cy + 4, "label", "start", content);
-            }
-        }
-        return "";
+    std::string contentOf(const PlotPoint& p) const { return plot_.names && !p.name.empty() ? p.label + " " + p.name : p.label; }
+
+    /// A bar that only spreads the time is no mark: labels may lie on it.
+    Box markOf(const PlotPoint& p) const {
+        const double half = p.group == "own" ? kOwnMark : kMark;
+        return {x_.at(p.time) - half, yOf(p) - half, 2 * half, 2 * half};
     }
 
-    bool isFree(const Box& box) const {
-        if (box.x < x_.from || box.x + box.width > plot_.width || box.y < kTop - 8 || box.y + box.height > y_.from) return false;
-        return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) { return other.meets(box); });
+    std::vector<LabelPlace> labelPlaces() const {
+        std::vector<LabelWish> wishes;
+        wishes.reserve(plot_.points.size());
+        for (const PlotPoint& p : plot_.points)
+            wishes.push_back({markOf(p), lengthOf(contentOf(p)) + kApart, lengthOf(p.label) + kApart});
+        const Box area = {x_.from + 1, kTop - 8, plot_.width - x_.from - 2, y_.from - kTop + 8};
+        return placeLabels(wishes, area, kText, lines());
+    }
+
+    /// What crosses labels out if it runs through them: the bars, the front, and the text of the reference's own error.
+    std::vector<Box> lines() const {
+        std::vector<Box> boxes;
+        const auto add = [&](double x1, double y1, double x2, double y2) {
+            boxes.push_back({std::min(x1, x2) - 1, std::min(y1, y2) - 1, std::abs(x2 - x1) + 2, std::abs(y2 - y1) + 2});
+        };
+        for (const PlotPoint& p : plot_.points) add(x_.at(p.timeLower), yOf(p), x_.at(p.timeUpper), yOf(p));
+        for (size_t i = 1; i < plot_.front.size(); ++i) {
+            const PlotPoint& before = plot_.points[plot_.front[i - 1]];
+            const PlotPoint& after = plot_.points[plot_.front[i]];
+            add(x_.at(before.time), yOf(before), x_.at(after.time), yOf(before));
+            add(x_.at(after.time), yOf(before), x_.at(after.time), yOf(after));
+        }
+        if (floorShows()) add(x_.to - lengthOf(kFloorText), floorAt() - kText - 2, x_.to, floorAt());
+        return boxes;
+    }
+
+    std::string leader(const PlotPoint& p, const LabelPlace& place) const {
+        return place.placed && place.leader ? line(x_.at(p.time), yOf(p), place.leaderX, place.leaderY, "leader") : "";
+    }
+
+    std::string label(const PlotPoint& p, const LabelPlace& place) const {
+        constexpr double kDescent = 2;  // of letters, under their line
+        if (!place.placed) return "";
+        return text(place.box.x + kApart / 2, place.box.y + place.box.height - kDescent, "label", "start",
+                    place.shortened ? p.label : contentOf(p));
     }
 
     const Plot& plot_;
     Axis x_, y_;
-    std::vector<Box> taken_;
 };
 
 }  // namespace

@@ -16,7 +16,8 @@ struct HardCases {
 
 struct Report {
     std::string scene;    // its file's name
-    std::string command;  // to run it again
+    std::string file;     // as it was named
+    std::string command;  // to run it again, as a shell takes it
     std::string date;
     minirt_device_info device = {};
     uint32_t width = 0, height = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "recommendation.hpp"
+
 namespace cost {
 namespace {
 
@@ -70,6 +72,15 @@ Json comparisonJson(const Report& report, const Comparison& c) {
             {"sentence", sentence(lever, c)}};
 }
 
+Json recommendationJson(const Report& report) {
+    const size_t choice = recommended(report);
+    return {{"sentence", recommendationSentence(report)},
+            {"changes", choice != 0},
+            {"measurement", choice},
+            {"settings", settingsJson(report.levers, report.measurements[choice].configuration)},
+            {"commands", recommendedCommands(report)}};
+}
+
 Json budgetJson(const Report& report) {
     Json json = {{"ms", report.budgetMs}, {"fits", report.choice.has_value()}};
     if (!report.choice) return json;
@@ -111,6 +122,7 @@ std::string reportJson(const Report& report) {
     json["findings"] = Json::array();
     for (size_t i : findings(report.levers, report.comparisons))
         json["findings"].push_back(sentence(report.levers[report.comparisons[i].lever], report.comparisons[i]));
+    json["recommendation"] = recommendationJson(report);
     json["failures"] = Json::array();
     for (const Failure& f : report.failures)
         json["failures"].push_back({{"settings", settingsJson(report.levers, f.configuration)}, {"reason", f.reason}});

@@ -48,13 +48,19 @@ std::vector<std::vector<HardCaseResult>> runHardCases(const std::vector<minirt_c
     std::mutex mutex;
     size_t next = 0;
     size_t done = 0;
-    const auto work = [&](minirt_context* context) {
-        Stage stage(context, compiler);
+    // Each thread begins with settings of its own: neighbouring cases have like kernels, and in step with each other one thread would wait for what the other
+    // compiles.
+    const auto work = [&](size_t thread) {
+        Stage stage(contexts[thread], compiler);
+        const size_t first = thread * settings.size() / contexts.size();
         std::unique_lock<std::mutex> lock(mutex);
         while (next < cases.size()) {
             const size_t i = next++;
             lock.unlock();
-            for (size_t s = 0; s < settings.size(); ++s) results[s][i] = run(cases[i], settings[s], stage);
+            for (size_t k = 0; k < settings.size(); ++k) {
+                const size_t s = (first + k) % settings.size();
+                results[s][i] = run(cases[i], settings[s], stage);
+            }
             stage.clear();
             lock.lock();
             progress(++done, cases.size());
@@ -62,7 +68,7 @@ std::vector<std::vector<HardCaseResult>> runHardCases(const std::vector<minirt_c
     };
     std::vector<std::thread> threads;
     threads.reserve(contexts.size());
-    for (minirt_context* context : contexts) threads.emplace_back(work, context);
+    for (size_t thread = 0; thread < contexts.size(); ++thread) threads.emplace_back(work, thread);
     for (std::thread& thread : threads) thread.join();
     return results;
 }
