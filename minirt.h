@@ -109,7 +109,7 @@ typedef struct minirt_uvec4 {
 #define MINIRT_SPEC_WIDE_NODES 9
 #define MINIRT_SPEC_COUNT 10
 
-/* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/kernels/whitted.comp, shaders/path/path.glsl); `volumes`: entries of a ray's VolumeList. */
+/* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/whitted/walk.glsl, shaders/path/path.glsl); `volumes`: entries of a ray's VolumeList. */
 #define MINIRT_WALK_WORDS(volumes) (21u + 2u * (volumes))
 #define MINIRT_PATH_WORDS(volumes) (22u + 2u * (volumes))
 #define MINIRT_TRAVERSAL_WORDS 10u
@@ -238,7 +238,7 @@ struct minirt_medium {
 
 /* Pushed with each dispatch. */
 struct minirt_frame {
-    minirt_vec4 position;  /* xyz: camera in scene space; w: rays with a smaller throughput are dropped */
+    minirt_vec4 position;  /* xyz: camera in scene space; w: rays with no larger throughput are weak */
     minirt_vec4 forward;   /* unit; w: radius of the lens */
     minirt_vec4 right;     /* scaled to the half width of the image at distance 1; w: distance in focus */
     minirt_vec4 up;        /* scaled to its half height; w: limit of what one path may add, 0: none */
@@ -494,8 +494,8 @@ typedef struct minirt_render_desc {
     uint32_t max_depth;           /* 0: the scene's; otherwise the limit plus one, so 1 means camera rays only */
     minirt_integrator integrator; /* 0: the scene's */
     uint32_t light_sampling;      /* of the path tracers: MINIRT_LIGHT_SAMPLING_; same mean, the first with the least noise */
-    uint32_t seed;                /* of the path tracers: another one gives another picture with noise of its own */
-    float throughput_cutoff;      /* of Whitted's tracer: rays that carry no more end; 0: the scene's, below 0: none end */
+    uint32_t seed;                /* of the path tracers and of Whitted's roulette: another one gives noise of its own */
+    float throughput_cutoff;      /* of Whitted's tracer: rays that carry no more are weak; 0: the scene's, below 0: none is */
     float clamp;                  /* of the path tracers: what one sample of a pixel may add at most; 0: no limit, and no bias */
     const minirt_camera* camera;  /* NULL: the scene's */
     minirt_region region;         /* all zero: the whole image */

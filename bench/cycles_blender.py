@@ -3,7 +3,8 @@
 blender -b --factory-startup -P cycles_blender.py -- prepare MESH.obj PANORAMA.hdr FOLDER SIZE DEPTH
     closes the mesh and writes it with a scene file for minirtc to FOLDER: glass under the panorama
 blender ... -- render SCENE.json SEED PREFIX THREADS SAMPLES...
-    renders that scene by Cycles; for each number of samples PREFIX_<samples>.pfm and a line "samples seconds" in PREFIX.times
+    renders that scene by Cycles; for each number of samples PREFIX_<samples>.pfm and a line "samples seconds processor-seconds" in
+    PREFIX.times
 """
 import json
 import math
@@ -59,7 +60,7 @@ def prepare(source, panorama, folder, size, depth):
         "background": {"image": os.path.abspath(panorama)},
         "materials": {"glass": {"model": "pbr", "transmission": 1, "roughness": 0, "ior": 1.5}},
         "objects": [{"mesh": "mesh.obj", "material": "glass", "smooth": False}],
-        "render": {"integrators": ["path", "wavefront"], "maxDepth": int(depth), "size": [int(size), int(size)]},
+        "render": {"integrators": ["whitted", "wavefront"], "accuracy": {"weak_rays": "roulette"}, "maxDepth": int(depth), "size": [int(size), int(size)]},
     }
     with open(os.path.join(folder, "scene.json"), "w", encoding="utf-8") as file:
         json.dump(scene, file, indent=1)
@@ -149,9 +150,9 @@ def render(scene_file, seed, prefix, threads, *samples):
     with open(prefix + ".times", "w", encoding="ascii") as times:
         for count in samples:
             bpy.context.scene.cycles.samples = int(count)
-            start = time.perf_counter()
+            start, processor = time.perf_counter(), time.process_time()
             bpy.ops.render.render(write_still=True)
-            times.write(f"{count} {time.perf_counter() - start}\n")
+            times.write(f"{count} {time.perf_counter() - start} {time.process_time() - processor}\n")
             write_pfm(prefix + ".exr", f"{prefix}_{count}.pfm")
 
 

@@ -5,7 +5,8 @@ import os
 import statistics
 import sys
 
-RENDERERS = ("minirt", "cycles")
+RENDERERS = ("trees", "paths", "cycles")  # the first two are minirt's
+CLOCKS = ("seconds", "processor_seconds")
 EPSILON = 0.01  # keeps relMSE finite where the reference is black
 OUTLIERS = 0.001  # share of the values, the largest, without which relMSE is given too: a single spark can decide it
 
@@ -30,8 +31,13 @@ def rel_mse(picture, reference):
 
 
 def read_times(path):
+    """Of lines "samples seconds processor-seconds", of which the last may be several to add: for each clock {samples: seconds}."""
     with open(path, encoding="ascii") as file:
-        return {int(count): float(seconds) for count, seconds in map(str.split, file)}
+        lines = [line.split() for line in file]
+    return {
+        "seconds": {int(count): float(seconds) for count, seconds, *_ in lines},
+        "processor_seconds": {int(count): sum(map(float, parts)) for count, _, *parts in lines},
+    }
 
 
 def seconds_a_sample(times):
@@ -48,8 +54,9 @@ def spread(values):
 
 def measure(folder, renderer, reference, rounds, counts):
     truth = read_pfm(os.path.join(folder, f"{renderer}_reference_{reference}.pfm"))
-    result = {"seconds_a_sample": [], "error_times_samples": [], "rel_mse": {count: [] for count in counts}}
+    result = {"error_times_samples": [], "rel_mse": {count: [] for count in counts}}
     result["seconds"] = {count: [] for count in counts}
+    result.update({f"{clock}_a_sample": [] for clock in CLOCKS})
     for round_ in range(1, rounds + 1):
         prefix = os.path.join(folder, f"{renderer}_{round_}")
         times = read_times(prefix + ".times")
@@ -57,12 +64,18 @@ def measure(folder, renderer, reference, rounds, counts):
         for count in counts:
             errors = rel_mse(read_pfm(f"{prefix}_{count}.pfm"), truth)
             result["rel_mse"][count].append(errors)
-            result["seconds"][count].append(times[count])
+            result["seconds"][count].append(times["seconds"][count])
             products.append(errors[1] / (1 / count + 1 / reference))  # the reference has noise of its own
-        result["seconds_a_sample"].append(seconds_a_sample(times))
+        for clock in CLOCKS:
+            result[f"{clock}_a_sample"].append(seconds_a_sample(times[clock]))
         result["error_times_samples"].append(statistics.mean(products))
-    result["error_times_seconds"] = [e * s for e, s in zip(result["error_times_samples"], result["seconds_a_sample"])]
     return result
+
+
+def time_at_equal_noise(one, other, clock):
+    """Over that of another renderer, round by round."""
+    costs = [[e * s for e, s in zip(m["error_times_samples"], m[f"{clock}_a_sample"])] for m in (one, other)]
+    return spread([a / b for a, b in zip(*costs)])
 
 
 def summary(measured):
@@ -70,25 +83,29 @@ def summary(measured):
         full, kept = zip(*measured["rel_mse"][count])
         return {"samples": count, "seconds": spread(measured["seconds"][count]), "rel_mse": spread(full), "rel_mse_without_outliers": spread(kept)}
 
-    names = ("seconds_a_sample", "error_times_samples", "error_times_seconds")
+    names = ("seconds_a_sample", "processor_seconds_a_sample", "error_times_samples")
     return {**{name: spread(measured[name]) for name in names}, "pictures": [of(count) for count in measured["seconds"]]}
 
 
-def main(folder, reference, rounds, *counts):
-    reference, rounds, counts = int(reference), int(rounds), [int(count) for count in counts]
-    measured = {one: measure(folder, one, reference, rounds, counts) for one in RENDERERS}
-    truths = [read_pfm(os.path.join(folder, f"{one}_reference_{reference}.pfm")) for one in RENDERERS]
-    between = rel_mse(*truths)
-    means = [sum(truth) / len(truth) for truth in truths]
-    expected = sum(statistics.median(measured[one]["error_times_samples"]) for one in RENDERERS) / reference
-    ratio = spread([m / c for m, c in zip(*(measured[one]["error_times_seconds"] for one in RENDERERS))])
-    report = {"references": {"samples": reference, "rel_mse": between[0], "rel_mse_without_outliers": between[1], "expected_of_noise": expected, "means": means}}
-    report.update({one: summary(measured[one]) for one in RENDERERS}, time_of_minirt_over_cycles_at_equal_noise=ratio)
-    with open(os.path.join(folder, "cycles.json"), "w", encoding="ascii") as file:
-        json.dump(report, file, indent=2)
-        file.write("\n")
-    print(f"References of {reference} samples: relMSE between them {between[0]:.3g}, without outliers {between[1]:.3g}, of which their noise "
-          f"explains {expected:.3g}; means {means[0]:.5g} and {means[1]:.5g}")
+def compare_references(folder, reference, measured):
+    """relMSE of each of minirt's against that of Cycles, what of it is noise, and the means."""
+    truths = {one: read_pfm(os.path.join(folder, f"{one}_reference_{reference}.pfm")) for one in RENDERERS}
+    noise = {one: statistics.median(measured[one]["error_times_samples"]) / reference for one in RENDERERS}
+
+    def of(one):
+        full, kept = rel_mse(truths[one], truths["cycles"])
+        return {"rel_mse": full, "rel_mse_without_outliers": kept, "expected_of_noise": noise[one] + noise["cycles"]}
+
+    means = {one: sum(truth) / len(truth) for one, truth in truths.items()}
+    return {"samples": reference, "means": means, **{one: of(one) for one in RENDERERS[:2]}}
+
+
+def print_report(report):
+    references = report["references"]
+    for one in RENDERERS[:2]:
+        r = references[one]
+        print(f"References of {references['samples']} samples, {one} and cycles: relMSE {r['rel_mse']:.3g}, without outliers {r['rel_mse_without_outliers']:.3g}, "
+              f"of which their noise explains {r['expected_of_noise']:.3g}; means {references['means'][one]:.5g} and {references['means']['cycles']:.5g}")
     print(f"{'':8} {'samples':>8} {'seconds':>9} {'relMSE':>10} {'without outliers':>17}")
     for one in RENDERERS:
         for row in report[one]["pictures"]:
@@ -96,8 +113,26 @@ def main(folder, reference, rounds, *counts):
                   f"{row['rel_mse_without_outliers']['median']:17.4g}")
     for one in RENDERERS:
         s = report[one]
-        print(f"{one}: {s['seconds_a_sample']['median'] * 1e3:.1f} ms a sample, error x samples {s['error_times_samples']['median']:.4g}")
-    print(f"Time of minirt at the noise of Cycles: {ratio['median']:.2f} of its time ({ratio['low']:.2f}-{ratio['high']:.2f})")
+        print(f"{one}: {s['seconds_a_sample']['median'] * 1e3:.1f} ms a sample, {s['processor_seconds_a_sample']['median'] * 1e3:.1f} ms of processor time; "
+              f"error x samples {s['error_times_samples']['median']:.4g}")
+    for one in RENDERERS[:2]:
+        wall, processor = (report["time_over_cycles_at_equal_noise"][one][clock] for clock in CLOCKS)
+        print(f"Time of {one} at the noise of Cycles: {wall['median']:.2f} of its time ({wall['low']:.2f}-{wall['high']:.2f}), "
+              f"{processor['median']:.2f} of its processor time ({processor['low']:.2f}-{processor['high']:.2f})")
+
+
+def main(folder, reference, rounds, *counts):
+    reference, rounds, counts = int(reference), int(rounds), [int(count) for count in counts]
+    measured = {one: measure(folder, one, reference, rounds, counts) for one in RENDERERS}
+    report = {"references": compare_references(folder, reference, measured)}
+    report.update({one: summary(measured[one]) for one in RENDERERS})
+    report["time_over_cycles_at_equal_noise"] = {
+        one: {clock: time_at_equal_noise(measured[one], measured["cycles"], clock) for clock in CLOCKS} for one in RENDERERS[:2]
+    }
+    with open(os.path.join(folder, "cycles.json"), "w", encoding="ascii") as file:
+        json.dump(report, file, indent=2)
+        file.write("\n")
+    print_report(report)
 
 
 main(*sys.argv[1:])

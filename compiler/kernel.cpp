@@ -52,6 +52,9 @@ const std::vector<std::string> kParts = {
     "common/encounter.glsl",
 };
 
+/// What Whitted's tracer has beyond them.
+const std::vector<std::string> kWhittedParts = {"whitted/walk.glsl", "levers/weak_rays.glsl"};
+
 /// What the path tracers have beyond them.
 const std::vector<std::string> kPathParts = {
     "sampling/warp.glsl",       "sampling/cells.glsl",        "bsdf/microfacet.glsl",
@@ -157,7 +160,8 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
     source += "#define VOLUME_CAPACITY " + std::to_string(effects.volumeCapacity) + "\n";
     std::vector<std::string> parts = kParts;
     if (name.rfind("rays", 0) == 0) parts.push_back("common/query.glsl");
-    if (name != "whitted") parts.insert(parts.end(), kPathParts.begin(), kPathParts.end());
+    const std::vector<std::string>& further = name == "whitted" ? kWhittedParts : kPathParts;
+    parts.insert(parts.end(), further.begin(), further.end());
     parts.push_back("kernels/" + name + ".comp");
     for (const std::string& part : parts) source += "#line 1 \"" + part + "\"\n" + shaderLibrary().at(part) + "\n";
     return source;

@@ -71,10 +71,19 @@ const std::vector<Lever> kLevers = {
      {{"float", "32 bits", ""}, {"double", "64 bits, on devices with shaderFloat64", "PRECISION_DOUBLE"}},
      "float",
      ""},
+    {"weak_rays",
+     LeverTime::bake,
+     "what becomes of rays of Whitted's tracer that carry no more than the cut-off",
+     {{"dropped", "they end", ""},
+      {"roulette",
+       "they survive with the probability of their share of it, and carry it then: noise instead of bias (Arvo and Kirk 1990)",
+       "WEAK_RAYS_ROULETTE"}},
+     "dropped",
+     ""},
     {"depth", LeverTime::render, "bounces after the camera ray", {}, "the scene's maxDepth", "--max-depth"},
     {"cutoff",
      LeverTime::render,
-     "of Whitted's tracer: rays end that carry no more than this share of the light; 0 keeps all",
+     "of Whitted's tracer: rays are weak that carry no more than this share of the light; 0: none is",
      {},
      "1/512",
      "--cutoff"},
@@ -204,7 +213,7 @@ Applicability applies(const Lever& lever, const EffectSet& effects) {
     if (lever.name == "nesting") return anyOf(effects, {Effect::nesting});
     if (lever.name == "absorption") return anyOf(effects, {Effect::absorption, Effect::inscatter});
     if (lever.name == "dispersion") return anyOf(effects, {Effect::dispersion});
-    const bool ofRaysThatGoOn = lever.name == "cutoff" || (lever.name == "depth" && !effects.paths);
+    const bool ofRaysThatGoOn = lever.name == "cutoff" || lever.name == "weak_rays" || (lever.name == "depth" && !effects.paths);
     if (ofRaysThatGoOn) return anyOf(effects, {Effect::reflection, Effect::refraction});
     if (lever.name == "light_sampling" && effects.paths) return anyOf(effects, {Effect::areaLights, Effect::environmentLight});
     if (lever.name == "light_sampling") return {false, "nothing traces paths"};

@@ -11,7 +11,7 @@ def table(head): (head | row), (head | map("---") | row), .[];
 def distinct: reduce .[] as $x ([]; if index([$x]) then . else . + [$x] end);
 
 def lever_names: ["samples", "integrator", "depth", "cutoff", "light_sampling", "intersection", "ray_offset", "fresnel", "normals", "nesting",
-    "absorption", "dispersion", "precision"];
+    "absorption", "dispersion", "precision", "weak_rays"];
 
 def introduction($devices):
 "# What accuracy costs in time

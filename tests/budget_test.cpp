@@ -319,6 +319,26 @@ TEST_CASE("any budget of steps gives the same picture of nested volumes bit for 
         }
 }
 
+TEST_CASE("any budget of steps gives the same picture of rays that play roulette bit for bit") {
+    TemporaryDir dir;
+    const auto blob =
+        test::bakeScene(dir, nestedScene("ordered", R"(,"dispersionMode":"spectral","accuracy":{"weak_rays":"roulette"})"));
+    minirt_render_desc desc = {};
+    desc.throughput_cutoff = 0.2f;
+    GpuContext gpu;
+    if (!gpu) return;
+    const Picture whole = LoadedScene(gpu, blob).render(desc);
+    for (const uint32_t steps : {7u, 64u}) {
+        CAPTURE(steps);
+        GpuContext hasty;
+        test::setStepBudget(hasty.get(), steps);
+        const Picture picture = LoadedScene(hasty, blob).render(desc);
+        CHECK(picture == whole);
+        CHECK(picture.stats.resumed_dispatches > 0);
+        CHECK(picture.stats.secondary_rays == whole.stats.secondary_rays);
+    }
+}
+
 TEST_CASE("kernels specialised as for a GPU give the same picture bit for bit") {
     TemporaryDir dir;
     Picture pictures[2];

@@ -159,7 +159,7 @@ TEST_CASE("the list of levers says which of them matter to a scene") {
     CHECK(contains(list.out, "watertight (default)"));
     CHECK_FALSE(contains(list.out, "matters here"));
     const nlohmann::json levers = nlohmann::json::parse(run({MINIRTC, "levers", sampleScene(), "--json"}).out);
-    REQUIRE(levers.size() == 12);
+    REQUIRE(levers.size() == 13);
     for (const nlohmann::json& lever : levers) {
         checkHasKeys(lever, {"/name", "/when", "/what", "/default", "/settings", "/applies", "/reason"});
         if (lever["name"] == "fresnel") CHECK(lever["applies"] == false);

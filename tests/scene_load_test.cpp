@@ -127,6 +127,8 @@ TEST_CASE("unknown keys name the nearest known key") {
          "s.json:3:1: the accuracy section has no key 'fresnl'; did you mean 'fresnel'?"},
         {with("\"render\":{\"accuracy\":{\"fresnel\":\n\"shlick\"}}"),
          "s.json:3:1: 'fresnel' is 'shlick'; did you mean 'schlick'?"},
+        {with("\"render\":{\"accuracy\":{\"weak_rays\":\n\"roulete\"}}"),
+         "s.json:3:1: 'weak_rays' is 'roulete'; did you mean 'roulette'?"},
         {with("\"render\":{\"accuracy\":{\"fresnel\":1}}"), "s.json:2:33: 'fresnel' is a number; give a string"},
         {with("\"render\":{\"accuracy\":7}"), "s.json:2:22: the accuracy section is a number; give an object"},
         {material("{\"model\":\"phong\",\"difuse\":1}"),

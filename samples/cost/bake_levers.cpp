@@ -31,14 +31,17 @@ const std::map<std::string, std::string>& words() {
         {"dispersion=spectral", "spectral dispersion"},
         {"precision=float", "single precision"},
         {"precision=double", "double precision"},
+        {"weak_rays=dropped", "weak rays that end"},
+        {"weak_rays=roulette", "Russian roulette of weak rays"},
     };
     return table;
 }
 
 std::string titleOf(const std::string& name) {
     static const std::map<std::string, std::string> titles = {
-        {"intersection", "Intersection"}, {"ray_offset", "Ray offset"}, {"fresnel", "Fresnel"},       {"normals", "Normals"},
-        {"nesting", "Nested volumes"},    {"absorption", "Absorption"}, {"dispersion", "Dispersion"}, {"precision", "Precision"}};
+        {"intersection", "Intersection"}, {"ray_offset", "Ray offset"},  {"fresnel", "Fresnel"},
+        {"normals", "Normals"},           {"nesting", "Nested volumes"}, {"absorption", "Absorption"},
+        {"dispersion", "Dispersion"},     {"precision", "Precision"},    {"weak_rays", "Weak rays"}};
     const auto found = titles.find(name);
     return found == titles.end() ? name : found->second;
 }

@@ -42,9 +42,9 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--size", o.size, "WIDTHxHEIGHT (default: the scene's)");
     app.add_option("--spp", o.spp, "Samples a pixel (default: the scene's)")->check(CLI::Range(1u, 1u << 24));
     app.add_option("--max-depth", o.maxDepth, "Bounces after the camera ray (default: the scene's)")->check(CLI::Range(0, 255));
-    app.add_option(
-           "--cutoff", o.cutoff,
-           "Of Whitted's tracer: rays end that carry no more than this share of the light; 0 keeps all (default: the scene's)")
+    app.add_option("--cutoff", o.cutoff,
+                   "Of Whitted's tracer: rays are weak that carry no more than this share of the light; 0: none is (default: the "
+                   "scene's)")
         ->check(CLI::Range(0.0f, 1.0f));
     const std::map<std::string, minirt_integrator> integrators = {
         {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
@@ -62,7 +62,8 @@ void addOptions(CLI::App& app, Options& o) {
            "or one "
            "of both alone (default: mis)")
         ->check(CLI::IsMember(samplings));
-    app.add_option("--seed", o.seed, "Of path tracers: each number gives noise of its own (default: 0)");
+    app.add_option("--seed", o.seed,
+                   "Each number gives noise of its own, of path tracers and of weak_rays=roulette (default: 0)");
     app.add_option("--clamp", o.clamp,
                    "Of path tracers: most that one sample may add to a pixel, which darkens (default: no limit)")
         ->check(CLI::PositiveNumber);
