@@ -1147,7 +1147,7 @@ struct minirt_scene {
     minirt_detail::Buffer buffers[MINIRT_BINDING_COUNT];  // those of the blob, then film, ray counts, state, counters of the job
     minirt_detail::Buffer filmReadBack;                   // where the film itself cannot be mapped
     minirt_detail::Buffer countsReadBack;
-    bool wideNodes = false;                               // on the device, see widenNodes
+    bool wideNodes = false;  // on the device, see widenNodes
     uint32_t mediumCount = 0;
     minirt_medium* media = nullptr;
     uint32_t kernelCount = 0;
@@ -1761,7 +1761,7 @@ inline bool keepsWideNodes(const minirt_context* c, const minirt_blob& b) {
 
 /* A child's box and reference, 4 words of a quantised node, as 8 words of a float one: planes keep their numbers. */
 inline void widenChild(const uint32_t* child, uint32_t* wide) {
-    const uint32_t planes[6] = {child[0] & 0xffffu, child[0] >> 16, child[1] & 0xffffu,
+    const uint32_t planes[6] = {child[0] & 0xffffu, child[0] >> 16,     child[1] & 0xffffu,
                                 child[1] >> 16,     child[2] & 0xffffu, child[2] >> 16};
     for (int i = 0; i < 6; ++i) {
         const float plane = static_cast<float>(planes[i]);

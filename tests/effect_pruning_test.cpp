@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <random>
 #include <set>
@@ -248,6 +249,29 @@ std::vector<std::vector<Part>> mixedParts() {
     return groups;
 }
 
+/// Of pixels, how many have a channel that differs by more than a thousandth.
+double shareThatDiffers(const Picture& a, const Picture& b) {
+    REQUIRE(a.rgba.size() == b.rgba.size());
+    size_t differing = 0;
+    for (size_t i = 0; i < a.rgba.size(); i += 4) {
+        bool apart = false;
+        for (size_t k = i; k < i + 4; ++k) apart |= std::abs(a.rgba[k] - b.rgba[k]) > 1e-3f * (1 + std::abs(b.rgba[k]));
+        differing += apart;
+    }
+    return static_cast<double>(differing) / (0.25 * static_cast<double>(a.rgba.size()));
+}
+
+/// The same bits on a processor. A GPU's compiler rounds other code otherwise, and a path that then takes another way is another sample of its pixel.
+void checkSame(const GpuContext& gpu, const Picture& pruned, const Picture& full) {
+    if (gpu.isCpu()) {
+        CHECK(pruned == full);
+        return;
+    }
+    const double share = shareThatDiffers(pruned, full);
+    if (share > 0) MESSAGE(100 * share, " % of the pixels differ by more than rounding");
+    CHECK(share <= 0.02);
+}
+
 }  // namespace
 
 TEST_CASE("an effect that a scene calls for is seen where it is missing, and brings no more buffers than it reads") {
@@ -275,6 +299,6 @@ TEST_CASE("a kernel with what the scene calls for is smaller than one with every
         const auto full = bakeScene(dir, sceneOf(group), "full", withAll());
         checkReadsWhatItNeeds(pruned, calledFor(dir.path() / "pruned.json", group));
         CHECK(spirvOf(pruned).size() < spirvOf(full).size());
-        CHECK(LoadedScene(gpu, pruned).render() == LoadedScene(gpu, full).render());
+        checkSame(gpu, LoadedScene(gpu, pruned).render(), LoadedScene(gpu, full).render());
     }
 }
