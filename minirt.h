@@ -1147,7 +1147,7 @@ struct minirt_scene {
     minirt_detail::Buffer buffers[MINIRT_BINDING_COUNT];  // those of the blob, then film, ray counts, state, counters of the job
     minirt_detail::Buffer filmReadBack;                   // where the film itself cannot be mapped
     minirt_detail::Buffer countsReadBack;
-    bool wideNodes = false;  // on the device, see widenNodes
+    bool wideNodes = false;  // on the device, see keepsWideNodes
     uint32_t mediumCount = 0;
     minirt_medium* media = nullptr;
     uint32_t kernelCount = 0;

@@ -19,7 +19,7 @@ struct BakeOptions {
     std::string statsFile;    // "": none
     bool quiet = false;
     Diagnostics* diagnostics = nullptr;  // takes the warnings, which else go to stderr
-    KernelCompiler* compiler = nullptr;  // which may know the kernels from before; else its own
+    KernelCompiler* compiler = nullptr;  // which may know the kernels from before, on its own threads; else its own
 };
 
 int bake(const BakeOptions& options);

@@ -158,6 +158,10 @@ void specialiseAsGpu(minirt_context* context) {
     context->info.is_cpu = 0;
 }
 
+bool hasWideNodes(const minirt_scene* scene) {
+    return scene->wideNodes;
+}
+
 void denyBallots(minirt_context* context) {
     context->hasBallots = false;
 }

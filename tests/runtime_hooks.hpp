@@ -4,6 +4,7 @@
 #include <cstdint>
 
 struct minirt_context;
+struct minirt_scene;
 
 namespace test {
 
@@ -13,6 +14,9 @@ void setStepBudget(minirt_context* context, uint32_t steps);
 
 /// Specialises kernels from now on as for a GPU: private stacks, scene data in storage buffers, no interleaving. Keeps the budget of steps.
 void specialiseAsGpu(minirt_context* context);
+
+/// Whether the nodes lie unpacked on the device, as a GPU keeps them.
+bool hasWideNodes(const minirt_scene* scene);
 
 /// As if the device had no ballots in subgroups.
 void denyBallots(minirt_context* context);

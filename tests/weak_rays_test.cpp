@@ -66,8 +66,8 @@ double leastP(const LoadedScene& scene, float cutoff, const std::array<double, 1
     for (size_t i = 0; i < sum.size(); ++i) {
         const double mean = sum[i] / kSeeds;
         const double variance = (squares[i] / kSeeds - mean * mean) / (kSeeds - 1);
-        // What rounding alone leaves is no bias.
-        if (std::abs(mean) > 1e-6 * expected[i]) least = std::min(least, studentTail(mean / std::sqrt(variance), kSeeds - 1));
+        if (std::abs(mean) <= 1e-6 * expected[i]) continue;  // what rounding alone leaves is no bias
+        least = std::min(least, variance > 0 ? studentTail(mean / std::sqrt(variance), kSeeds - 1) : 0.0);
     }
     return least;
 }

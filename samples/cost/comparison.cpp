@@ -186,7 +186,12 @@ std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector
         }
     std::vector<size_t> chosen;
     for (const char* wanted : {"keep", "spare"}) {
-        const auto found = std::find_if(order.begin(), order.end(), [&](size_t i) { return verdict(comparisons[i]) == wanted; });
+        // What the scene does not do by itself it need not be told to do without.
+        const auto fits = [&](size_t i) {
+            const Comparison& c = comparisons[i];
+            return verdict(c) == wanted && (verdict(c) != std::string("spare") || c.accurate == levers[c.lever].initial);
+        };
+        const auto found = std::find_if(order.begin(), order.end(), fits);
         if (found != order.end()) chosen.push_back(*found);
     }
     for (size_t i : order)

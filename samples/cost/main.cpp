@@ -112,6 +112,7 @@ void study(const Options& options, const std::string& command) {
     report.scene = std::filesystem::path(options.scene).stem().string();
     report.file = options.scene;
     report.command = command;
+    if (!options.device.empty()) report.deviceOption = " --device " + cost::shellWord(options.device);
     report.date = today();
     write(options.output, cost::page(report));
     if (!options.json.empty()) write(options.json, reportJson(report));

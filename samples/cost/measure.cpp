@@ -42,8 +42,9 @@ Picture scaled(Picture picture, float factor) {
 /// What the rounds of a configuration leave.
 struct Measurer::Tally {
     std::vector<double> relMse;
-    Errors errors;      // of all rounds, summed
-    Picture even, odd;  // sums of the pictures of these rounds
+    Errors errors;        // of all rounds, summed
+    Picture even, odd;    // sums of the pictures of these rounds
+    bool random = false;  // no two pictures are the same: of a path tracer, or where weak rays play roulette
 
     /// The means of the even and of the odd rounds; of a single round twice that.
     std::pair<Picture, Picture> halves() const {
@@ -128,7 +129,8 @@ void Measurer::takeAccuratePictures(const std::vector<Configuration>& configurat
 double Measurer::add(Tally& tally, const Configuration& configuration, uint32_t round) {
     double ms = 0;
     const Picture picture = render(configuration, round, 0, samplesOf(scenes_.levers(), configuration), ms);
-    if (!reference_.random && round > 0) {  // the same picture again
+    if (round <= 1) tally.random = reference_.random || (round == 1 && picture.rgba != tally.even.rgba);
+    if (!tally.random && round > 0) {  // the same picture again
         tally.relMse.push_back(tally.relMse.front());
         return ms;
     }
@@ -147,22 +149,23 @@ Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Confi
     m.configuration = configuration;
     m.repeats = static_cast<uint32_t>(tally.relMse.size());
     m.relMse = spreadOf(tally.relMse);
-    const uint32_t pictures = reference_.random ? m.repeats : 1;
+    const uint32_t pictures = tally.random ? m.repeats : 1;
     m.error = tally.errors;
     m.error.wrongPixels /= pictures;
     for (float& error : m.error.ofPixels) error /= static_cast<float>(pictures);
     for (double relMse : tally.relMse) m.error.relMse += relMse / static_cast<double>(m.repeats);
+    const auto [even, odd] = tally.random ? tally.halves() : std::pair(tally.even, tally.even);
+    m.picture = meanOf(even, odd);
     if (reference_.random) {
-        const auto [even, odd] = tally.halves();
         const auto [ownEven, ownOdd] = own.halves();
-        m.picture = meanOf(even, odd);
         if (pictures > 1) {
             m.bias = squaredBias(even, odd, reference_.firstHalf, reference_.secondHalf, reference_.mean);
             m.shift = squaredBias(even, odd, ownEven, ownOdd, reference_.mean);
         }
     } else {
-        m.picture = tally.even;
-        m.sameSamples = compare(m.picture, accurateAt(samplesOf(scenes_.levers(), configuration)));
+        const Picture& accurate = accurateAt(samplesOf(scenes_.levers(), configuration));
+        m.sameSamples = compare(m.picture, accurate);
+        if (pictures > 1) m.sameSamples.relMse = std::max(squaredBias(even, odd, accurate, accurate, accurate).value, 0.0);
         m.bias = {m.sameSamples.relMse, 0};
     }
     m.pipelineMs = scenes_.load(configuration).pipelineMs;

@@ -74,7 +74,9 @@ std::vector<size_t> pictured(const Report& report) {
 
 std::string leverSentence(const Report& report, const Comparison& c) {
     const std::vector<size_t> shown = pictured(report);
-    const bool linked = std::find(shown.begin(), shown.end(), c.measurement) != shown.end();
+    // The picture is to show what the sentence says goes wrong without the accurate setting.
+    const bool isCheap = report.measurements[c.measurement].configuration[c.lever] == c.cheap;
+    const bool linked = isCheap && std::find(shown.begin(), shown.end(), c.measurement) != shown.end();
     return prose(sentence(report.levers[c.lever], c)) + (linked ? " <a href=\"#" + anchor(c.measurement) + "\">Where?</a>" : "");
 }
 
@@ -110,8 +112,9 @@ std::string findingsSection(const Report& report) {
 std::string howToSection(const Report& report) {
     std::string lines;
     for (const std::string& command : recommendedCommands(report)) lines += escaped(command) + "\n";
-    std::string text = element("p", "", recommended(report) ? "To get these settings, type" : "To render it so, type") +
-                       element("pre", "", lines);
+    std::string text =
+        element("p", "", recommended(report) ? "To get these settings, type" : "To render it with its own settings, type") +
+        element("pre", "", lines);
     const std::string keys = recommendedKeys(report);
     const std::string beside = recommendedOptionsBesideKeys(report);
     if (!keys.empty())
@@ -145,7 +148,9 @@ std::string head(const Report& report) {
     std::string pictures = figure(
         pictureUri(own.picture),
         "The scene with its own settings: " + number(own.ms.median) + " ms" +
-            (report.reference.random && own.repeats > 1 ? " each, mean of " + std::to_string(own.repeats) + " pictures" : ""));
+            (report.reference.random && own.repeats > 1 ? " each, mean of " + std::to_string(own.repeats) + " pictures" : "") +
+            ". " + percent(own.error.wrongPixels) + " of the pixels look wrong, the noise of " + sampleCount(report.samples()) +
+            " a pixel included");
     pictures += figure(pictureUri(report.reference.mean), "The reference: every lever at its most accurate, " +
                                                               std::to_string(report.reference.samples) + " samples a pixel");
     return text + element("div", "class=\"hero\"", pictures);
@@ -353,11 +358,14 @@ std::string methodSection(const Report& report) {
                       "pictures, in which noise cancels; named where it exceeds three standard errors. The sentences are for the "
                       "scene's own " +
                           std::to_string(report.sceneSamples) + " samples a pixel: bias stays, noise falls as their number.")
-            : element("p", "",
-                      "<b>At the same samples</b> is relMSE against the reference's settings at the same sample positions: what "
-                      "the lever itself does, without the error of too few samples. Whitted's pictures repeat bit for bit. "
-                      "What a sentence says is removed is the difference in that column, as a share of itself and the accurate "
-                      "setting's whole error, noise included; its pixels are those that this lever alone makes wrong.");
+            : element(
+                  "p", "",
+                  "<b>At the same samples</b> is relMSE against the reference's settings at the same sample positions: what "
+                  "the lever itself does, without the error of too few samples. Whitted's pictures repeat bit for bit. "
+                  "A sentence judges a lever by itself: what the cheaper setting adds in that column is removed, as a share "
+                  "of the error, noise included, that the accurate setting has and this on top of it. Noise may hide some of "
+                  "it in the column of errors, which therefore differs less; its pixels are those that this lever alone makes "
+                  "wrong. Numbers of samples are judged by their whole errors.");
     text += element("p", "",
                     "<b>Time</b> is the device's time for the dispatches of one picture: the median of " +
                         std::to_string(own.repeats) +

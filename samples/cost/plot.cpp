@@ -148,7 +148,7 @@ private:
 
     std::string contentOf(const PlotPoint& p) const { return plot_.names && !p.name.empty() ? p.label + " " + p.name : p.label; }
 
-    /// A bar that only spreads the time is no mark: labels may lie on it.
+    /// A bar that only spreads the time is no mark: labels keep off it only where there is room.
     Box markOf(const PlotPoint& p) const {
         const double half = p.group == "own" ? kOwnMark : kMark;
         return {x_.at(p.time) - half, yOf(p) - half, 2 * half, 2 * half};

@@ -18,8 +18,8 @@ double moreSamples(const Report& report) {
     return static_cast<double>(report.sceneSamples) / report.samples();
 }
 
-/// relMSE at the scene's own samples. Whitted's pictures repeat bit for bit, and a setting that misses a bright spark has less noise by being wrong: what
-/// it does at the same samples counts where it is more.
+/// relMSE at the scene's own samples. Whitted's pictures are taken at the same samples, where a setting that misses a bright spark has less noise by
+/// being wrong: what it does at the same samples counts where it is more.
 double expectedError(const Report& report, const Measurement& m) {
     const Measurement& own = report.measurements.front();
     if (!report.reference.random)
@@ -124,7 +124,7 @@ size_t recommended(const Report& report) {
 std::string recommendationSentence(const Report& report) {
     const size_t choice = recommended(report);
     if (choice == 0)
-        return "Keep the scene's own settings: nothing that was measured saves " + percent(kLeastSaving) +
+        return "Keep the scene's own settings: nothing that was measured surely saves " + percent(kLeastSaving) +
                " of the time and keeps the quality of the picture.";
     const Measurement& m = report.measurements[choice];
     return "Take " + changesInWords(report, choice) + ": " + percent(1 - m.slowdown.median) + " less time (" +
@@ -138,10 +138,11 @@ std::string recommendationRule(const Report& report) {
                        " of the time in three quarters of all pairs of repeats, and whose error is at most " +
                        percent(kMoreError) + " larger than that of the scene's own settings";
     rule += report.reference.random ? ", as expected at the scene's " + std::to_string(report.sceneSamples) + " samples a pixel."
-                                    : ", with at most " + percent(kMoreWrongPixels) + " more of the pixels visibly wrong.";
-    return rule + " Of those that are less than " + percent(kSameTime) +
-           " slower than it, the one that changes the fewest settings; timed once more, since the fastest of many may be so by "
-           "chance. It holds for this scene, this view and this device.";
+                                    : ", at the same samples as well, with at most " + percent(kMoreWrongPixels) +
+                                          " more of the pixels visibly wrong there.";
+    rule += " Of those that are less than " + percent(kSameTime) + " slower than it, the one that changes the fewest settings";
+    if (report.confirmed) rule += "; timed once more, since the fastest of many may be so by chance";
+    return rule + ". It holds for this scene, this view and this device.";
 }
 
 std::vector<std::string> recommendedCommands(const Report& report) {
@@ -155,7 +156,7 @@ std::vector<std::string> recommendedCommands(const Report& report) {
                 bake += " --set " + report.levers[i].name + "=" + settingOf(report, i).name;
         commands.push_back(bake);
     }
-    commands.push_back("minirt-render " + shellWord(blob) + " -o " + shellWord(report.scene + ".png") +
+    commands.push_back("minirt-render " + shellWord(blob) + " -o " + shellWord(report.scene + ".png") + report.deviceOption +
                        renderOptions(report, true));
     return commands;
 }

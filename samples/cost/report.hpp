@@ -15,9 +15,11 @@ struct HardCases {
 };
 
 struct Report {
-    std::string scene;    // its file's name
-    std::string file;     // as it was named
-    std::string command;  // to run it again, as a shell takes it
+    std::string scene;         // its file's name
+    std::string file;          // as it was named
+    std::string command;       // to run it again, as a shell takes it
+    std::string deviceOption;  // of minirt-render too: " --device NAME", or "" for the default one
+    bool confirmed = false;    // what is recommended was timed once more
     std::string date;
     minirt_device_info device = {};
     uint32_t width = 0, height = 0;
