@@ -54,7 +54,7 @@ def spread(values):
 
 def measure(folder, renderer, reference, rounds, counts):
     truth = read_pfm(os.path.join(folder, f"{renderer}_reference_{reference}.pfm"))
-    result = {"error_times_samples": [], "rel_mse": {count: [] for count in counts}}
+    result = {"error_times_samples": [], "rel_mse": {count: [] for count in counts}, "error_times_samples_of": {count: [] for count in counts}}
     result["seconds"] = {count: [] for count in counts}
     result.update({f"{clock}_a_sample": [] for clock in CLOCKS})
     for round_ in range(1, rounds + 1):
@@ -66,16 +66,27 @@ def measure(folder, renderer, reference, rounds, counts):
             result["rel_mse"][count].append(errors)
             result["seconds"][count].append(times["seconds"][count])
             products.append(errors[1] / (1 / count + 1 / reference))  # the reference has noise of its own
+            result["error_times_samples_of"][count].append(products[-1])
         for clock in CLOCKS:
             result[f"{clock}_a_sample"].append(seconds_a_sample(times[clock]))
         result["error_times_samples"].append(statistics.mean(products))
     return result
 
 
-def time_at_equal_noise(one, other, clock):
-    """Over that of another renderer, round by round."""
-    costs = [[e * s for e, s in zip(m["error_times_samples"], m[f"{clock}_a_sample"])] for m in (one, other)]
+def time_at_equal_noise(one, other, clock, count=None):
+    """Over that of another renderer, round by round; by the errors of pictures of `count` samples, or of all."""
+    costs = []
+    for m in (one, other):
+        errors = m["error_times_samples_of"][count] if count else m["error_times_samples"]
+        costs.append([e * s for e, s in zip(errors, m[f"{clock}_a_sample"])])
     return spread([a / b for a, b in zip(*costs)])
+
+
+def times_at_equal_noise(one, other, counts):
+    """For each clock of all pictures together, and by elapsed time of each number of samples."""
+    times = {clock: time_at_equal_noise(one, other, clock) for clock in CLOCKS}
+    times["seconds_by_samples"] = {count: time_at_equal_noise(one, other, "seconds", count) for count in counts}
+    return times
 
 
 def summary(measured):
@@ -119,6 +130,8 @@ def print_report(report):
         wall, processor = (report["time_over_cycles_at_equal_noise"][one][clock] for clock in CLOCKS)
         print(f"Time of {one} at the noise of Cycles: {wall['median']:.2f} of its time ({wall['low']:.2f}-{wall['high']:.2f}), "
               f"{processor['median']:.2f} of its processor time ({processor['low']:.2f}-{processor['high']:.2f})")
+        by_samples = report["time_over_cycles_at_equal_noise"][one]["seconds_by_samples"]
+        print("  by pictures of " + ", ".join(f"{count} samples: {ratio['median']:.2f}" for count, ratio in by_samples.items()))
 
 
 def main(folder, reference, rounds, *counts):
@@ -127,7 +140,7 @@ def main(folder, reference, rounds, *counts):
     report = {"references": compare_references(folder, reference, measured)}
     report.update({one: summary(measured[one]) for one in RENDERERS})
     report["time_over_cycles_at_equal_noise"] = {
-        one: {clock: time_at_equal_noise(measured[one], measured["cycles"], clock) for clock in CLOCKS} for one in RENDERERS[:2]
+        one: times_at_equal_noise(measured[one], measured["cycles"], counts) for one in RENDERERS[:2]
     }
     with open(os.path.join(folder, "cycles.json"), "w", encoding="ascii") as file:
         json.dump(report, file, indent=2)

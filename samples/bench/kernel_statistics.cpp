@@ -71,8 +71,8 @@ double valueOf(const VkPipelineExecutableStatisticKHR& statistic) {
         case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR:
             return static_cast<double>(statistic.value.i64);
         case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR:
-            return static_cast<double>(statistic.value.u64 &
-                                       0xffffffffu);  // a driver has 16 in the upper half of sizes (NVIDIA 580)
+            // Registers and bytes of a kernel need no more; a driver (NVIDIA 580) has 16 in the upper half of its sizes.
+            return static_cast<double>(statistic.value.u64 & 0xffffffffu);
         default:
             return statistic.value.f64;
     }

@@ -20,8 +20,7 @@ constexpr uint32_t kLeastRounds = 3;
 struct Reference {
     Configuration configuration;
     uint32_t samples = 0;  // of both halves
-    bool random =
-        false;  // path tracers: their noise is random; Whitted's pictures repeat bit for bit, but for roulette of weak rays
+    bool random = false;   // path tracers: their noise is random; Whitted's pictures repeat bit for bit, but for roulette
     Picture firstHalf, secondHalf, mean;
     double relMse = 0;                      // its own error, from how much its halves differ
     std::map<uint32_t, Picture> atSamples;  // Whitted's: with the first so many samples a pixel

@@ -99,12 +99,10 @@ std::string findingsSection(const Report& report) {
     if (report.budgetMs > 0) items += element("li", "class=\"trade\"", prose(budgetSentence(report)));
     const std::string words =
         "<b>Error</b>: how far a picture is from the reference, in which all is at its most accurate; 0 is no difference. "
-        "<b>Look "
-        "wrong</b>: off by more than " +
+        "<b>Look wrong</b>: off by more than " +
         std::to_string(kUnseenSteps) +
-        " of a screen's 255 steps. <b>Keep</b>: worth its time. <b>Spare</b>: do without. More under <a href=\"#method\">how "
-        "this "
-        "was measured</a>.";
+        " of a screen's 255 steps. <b>Keep</b>: worth its time. <b>Spare</b>: do without. More under "
+        "<a href=\"#method\">how this was measured</a>.";
     return element("ul", "class=\"findings\"", items) + element("p", "class=\"soft\"", words);
 }
 
