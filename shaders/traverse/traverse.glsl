@@ -28,6 +28,10 @@ bool isDone(Traversal traversal) { return traversal.node == NODE_NONE; }
 /// What a pass of an inner loop counts: a GPU's driver ends no loop, so there those of the outer one will do, which the inner ones cannot outlast.
 const uint PASS = MASKS_LANES ? 1u : 0u;
 
+/// Nodes that a GPU's lane visits before it looks whether it has a leaf to test: without a limit all lanes of a subgroup wait for the longest way to a
+/// leaf. Where lanes are masked they wait anyway, and another look costs.
+const uint NODES_TOGETHER = 4u;
+
 /// All primitives of a leaf.
 void intersectLeaf(inout Traversal ray, Shear shear, uint leaf, inout uint steps) {
     uint slot = (leaf & ~MINIRT_LEAF) >> 3;
@@ -51,6 +55,7 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
     if (node != NODE_NONE) {  // a ray that is done takes one step, so that whoever waits for it gets on under any budget
         do {
             if ((node & MINIRT_LEAF) == 0u) {
+                uint nodes = 0u;
                 do {
                     steps += PASS;
                     ChildBoxes boxes = fetchNode(node);
@@ -59,7 +64,7 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
                     bool secondFirst = hit1.hit && (hit1.tNear < hit0.tNear || !hit0.hit);
                     node = secondFirst ? boxes.ref1 : boxes.ref0;
                     changeStack(stack, node, hit0.hit && hit1.hit, secondFirst ? boxes.ref0 : boxes.ref1, !(hit0.hit || hit1.hit));
-                } while ((node & MINIRT_LEAF) == 0u && (!MASKS_LANES || steps < budget));
+                } while ((node & MINIRT_LEAF) == 0u && (MASKS_LANES ? steps < budget : ++nodes < NODES_TOGETHER));
             }
             if (node != NODE_NONE && (node & MINIRT_LEAF) != 0u) {
                 do {
@@ -67,7 +72,7 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
                     changeStack(stack, node, false, NODE_NONE, true);
                     if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
                     steps += PASS;
-                } while (node != NODE_NONE && (node & MINIRT_LEAF) != 0u && (!MASKS_LANES || steps < budget));
+                } while (MASKS_LANES && node != NODE_NONE && (node & MINIRT_LEAF) != 0u && steps < budget);
             }
             // This pass, and those of the loops inside where all lanes of a subgroup are masked; at the end, so that any budget makes progress.
             steps += 4u;
