@@ -26,12 +26,37 @@ WorkCount countOf(const std::vector<RayWork>& work, Member member) {
     return count;
 }
 
+constexpr size_t kGroup = 64;
+
+/// Place in its group of the ray that a lane takes: Morton order over 8 x 8, as in shaders/kernels/rays_once.comp.
+size_t placeOf(size_t lane) {
+    const size_t x = (lane & 1) | (lane >> 1 & 2) | (lane >> 2 & 4), y = (lane >> 1 & 1) | (lane >> 2 & 2) | (lane >> 3 & 4);
+    return y * 8 + x;
+}
+
+/// Summed over the subgroups, what the ray with most of it has.
+uint64_t sumOfLongest(const std::vector<RayWork>& work, Member member) {
+    const size_t lanes = std::min<size_t>(work.front().subgroupSize, kGroup);
+    uint64_t total = 0;
+    for (size_t group = 0; group < work.size(); group += kGroup)
+        for (size_t first = 0; first < kGroup; first += lanes) {
+            uint32_t longest = 0;
+            for (size_t lane = first; lane < first + lanes; ++lane)
+                longest = std::max(longest, work[group + placeOf(lane)].*member);
+            total += longest;
+        }
+    return total;
+}
+
 /// Idle rays at the end of the last group take part in passes but are of no use.
-LoopLanes lanesOf(uint64_t useful, const std::vector<RayWork>& work, Member passes, Member empty) {
-    const uint64_t none = sum(work, empty), all = sum(work, passes) + none;
-    if (all == 0) return {};
-    const double lanes = static_cast<double>(all) * work.front().subgroupSize;
-    return {static_cast<double>(useful) / lanes, static_cast<double>(none) / static_cast<double>(all)};
+LoopLanes lanesOf(const std::vector<RayWork>& work, size_t rays, Member useful, Member passes, Member empty) {
+    const uint64_t none = sum(work, empty), all = sum(work, passes) + none, longest = sumOfLongest(work, useful);
+    if (longest == 0) return {};
+    const auto shareOf = [&,
+                          used = sum({work.begin(), work.begin() + static_cast<std::ptrdiff_t>(rays)}, useful)](uint64_t made) {
+        return static_cast<double>(used) / (static_cast<double>(made) * work.front().subgroupSize);
+    };
+    return {shareOf(all), shareOf(longest), static_cast<double>(none) / static_cast<double>(all)};
 }
 
 }  // namespace
@@ -46,9 +71,8 @@ RayProfile profileOf(const std::vector<RayWork>& work, size_t rays, uint32_t nod
     profile.leaves = countOf(own, &RayWork::leaves);
     profile.nodeBytes = profile.nodeSteps.mean * nodeBytes;
     profile.triangleBytes = profile.triangleTests.mean * triangleBytes;
-    profile.nodeLanes = lanesOf(sum(own, &RayWork::nodeSteps), work, &RayWork::nodePasses, &RayWork::emptyNodePasses);
-    profile.triangleLanes =
-        lanesOf(sum(own, &RayWork::triangleTests), work, &RayWork::trianglePasses, &RayWork::emptyTrianglePasses);
+    profile.nodeLanes = lanesOf(work, rays, &RayWork::nodeSteps, &RayWork::nodePasses, &RayWork::emptyNodePasses);
+    profile.triangleLanes = lanesOf(work, rays, &RayWork::triangleTests, &RayWork::trianglePasses, &RayWork::emptyTrianglePasses);
     return profile;
 }
 

@@ -18,6 +18,8 @@ struct WorkCount {
 /// A loop of traversal.
 struct LoopLanes {
     double share = 0;  // of the lanes that all of its passes have, those that were of use
+    double bound =
+        0;  // the same if a subgroup took no more passes than the longest of its rays; less is due to lanes that wait in other loops
     double empty = 0;  // of all passes, those with no lane in them; 0 where lanes are not masked
 };
 
@@ -33,7 +35,7 @@ struct RayProfile {
     double bytesPerSecond() const { return (nodeBytes + triangleBytes) / ns * 1e9; }
 };
 
-/// `work`: that of `rays` rays, and behind them of those that fill the last group. `nodeBytes`, `triangleBytes`: what a step and a test fetch.
+/// `work`: that of `rays` rays, and behind them of those that fill the last group; groups as RayKernel makes them. `nodeBytes`, `triangleBytes`: what a step and a test fetch.
 /// Without `ns` and `hits`.
 RayProfile profileOf(const std::vector<RayWork>& work, size_t rays, uint32_t nodeBytes, uint32_t triangleBytes);
 
