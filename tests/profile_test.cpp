@@ -158,11 +158,11 @@ TEST_CASE("a triangle takes a node step, and a test where its box is met") {
     CHECK(profile.nodeBytes == kernels.counting.nodeBytes());
     CHECK(profile.triangleBytes == 48.0 / kGroup);
     // All lanes take the node step. One alone tests; where lanes are masked, the other subgroups run that test for nobody.
-    CHECK(profile.nodeLanes.share == 1);
+    CHECK(profile.nodeLanes.inUse == 1);
     CHECK(profile.nodeLanes.empty == 0);
     const double subgroups = static_cast<double>(kGroup) / profile.subgroupSize;
     const double passes = gpu.isCpu() ? subgroups : 1;
-    CHECK(profile.triangleLanes.share == doctest::Approx(1 / (passes * profile.subgroupSize)));
+    CHECK(profile.triangleLanes.inUse == doctest::Approx(1 / (passes * profile.subgroupSize)));
     CHECK(profile.triangleLanes.empty == doctest::Approx((passes - 1) / passes));
     CHECK(profile.triangleLanes.bound == 1.0 / profile.subgroupSize);
 }
@@ -202,13 +202,13 @@ TEST_CASE("lanes are full where all rays are one, and no subgroup takes fewer pa
                                           [](const RayWork& a, const RayWork& b) { return a.triangleTests < b.triangleTests; });
     const RayProfile one = kernels.profile(std::vector<Ray>(2 * kGroup, rays[static_cast<size_t>(longest - work.begin())]));
     CHECK(one.nodeSteps.mean == longest->nodeSteps);
-    CHECK(one.nodeLanes.share == 1);
-    CHECK(one.triangleLanes.share >=
+    CHECK(one.nodeLanes.inUse == 1);
+    CHECK(one.triangleLanes.inUse >=
           longest->triangleTests / (longest->triangleTests + 1.0));  // the walk may end with an empty pass
     const RayProfile all = profileOf(work, rays.size(), 32, 48);
     for (const LoopLanes& lanes : {all.nodeLanes, all.triangleLanes}) {
-        CHECK(lanes.share > 1.0 / all.subgroupSize);
-        CHECK(lanes.share <= lanes.bound);
+        CHECK(lanes.inUse > 1.0 / all.subgroupSize);
+        CHECK(lanes.inUse <= lanes.bound);
         CHECK(lanes.bound < 1);
     }
 }
@@ -242,10 +242,11 @@ TEST_CASE("a profile's figures follow from the counts, idle rays in passes alone
     CHECK(profile.nodeSteps.most == 10);
     CHECK(profile.nodeBytes == doctest::Approx(32 * steps / 190));
     CHECK(profile.triangleBytes == 48);
-    CHECK(profile.nodeLanes.share == doctest::Approx(steps / (4 * 200)));
+    CHECK(profile.nodeLanes.inUse == doctest::Approx(steps / (4 * 200)));
     CHECK(profile.nodeLanes.bound == doctest::Approx(steps / (4 * (10 + 5 + 46 * 2))));
+    CHECK(profile.nodeLanes.passes == doctest::Approx(200.0 / 190));
     CHECK(profile.nodeLanes.empty == doctest::Approx(0.1));
-    CHECK(profile.triangleLanes.share == doctest::Approx(190.0 / 200));
+    CHECK(profile.triangleLanes.inUse == doctest::Approx(190.0 / 200));
     CHECK(profile.triangleLanes.bound == doctest::Approx(190.0 / 192));
     CHECK(profile.triangleLanes.empty == 0);
     CHECK(profileOf({}, 0, 32, 48).nodeSteps.mean == 0);

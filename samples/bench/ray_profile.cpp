@@ -50,13 +50,17 @@ uint64_t sumOfLongest(const std::vector<RayWork>& work, Member member) {
 
 /// Idle rays at the end of the last group take part in passes but are of no use.
 LoopLanes lanesOf(const std::vector<RayWork>& work, size_t rays, Member useful, Member passes, Member empty) {
-    const uint64_t none = sum(work, empty), all = sum(work, passes) + none, longest = sumOfLongest(work, useful);
-    if (longest == 0) return {};
-    const auto shareOf = [&,
-                          used = sum({work.begin(), work.begin() + static_cast<std::ptrdiff_t>(rays)}, useful)](uint64_t made) {
-        return static_cast<double>(used) / (static_cast<double>(made) * work.front().subgroupSize);
-    };
-    return {shareOf(all), shareOf(longest), static_cast<double>(none) / static_cast<double>(all)};
+    const auto count = static_cast<double>(rays), lanes = static_cast<double>(work.front().subgroupSize);
+    const auto longest = static_cast<double>(sumOfLongest(work, useful)) / count;
+    const auto none = static_cast<double>(sum(work, empty)) / count;
+    const double mean = countOf({work.begin(), work.begin() + static_cast<std::ptrdiff_t>(rays)}, useful).mean;
+    LoopLanes loop;
+    loop.passes = static_cast<double>(sum(work, passes)) / count + none;
+    if (longest == 0) return loop;
+    loop.empty = none / loop.passes;
+    loop.inUse = mean / (loop.passes * lanes);
+    loop.bound = mean / (longest * lanes);
+    return loop;
 }
 
 }  // namespace

@@ -15,12 +15,13 @@ struct WorkCount {
     uint32_t most = 0;
 };
 
-/// A loop of traversal.
+/// A loop of traversal, which takes all lanes of a subgroup along in every pass.
 struct LoopLanes {
-    double share = 0;  // of the lanes that all of its passes have, those that were of use
+    double passes = 0;  // of subgroups, a ray
+    double empty = 0;   // of these, the share with no lane in them; 0 where lanes are not masked
+    double inUse = 0;   // share of the passes' lanes that were of use
     double bound =
-        0;  // the same if a subgroup took no more passes than the longest of its rays; less is due to lanes that wait in other loops
-    double empty = 0;  // of all passes, those with no lane in them; 0 where lanes are not masked
+        0;  // the same if no subgroup took more passes than the longest of its rays; what is less waits for lanes in other loops
 };
 
 /// Of one set of rays.

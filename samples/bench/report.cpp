@@ -80,7 +80,7 @@ Json toJson(const RayProfile& p) {
         return Json{{"mean", c.mean}, {"percentile_99", c.percentile99}, {"most", c.most}};
     };
     const auto lanes = [](const LoopLanes& l) {
-        return Json{{"in_use", l.share}, {"bound", l.bound}, {"empty_passes", l.empty}};
+        return Json{{"passes", l.passes}, {"empty", l.empty}, {"in_use", l.inUse}, {"bound", l.bound}};
     };
     return {{"subgroup_size", p.subgroupSize},
             {"node_steps", count(p.nodeSteps)},
@@ -178,21 +178,21 @@ void print(const std::vector<RaySetResult>& results) {
 }
 
 void printProfile(const std::vector<RaySetResult>& results, const std::vector<KernelStatistics>& statistics) {
-    std::printf("  %-9s %23s %21s %7s %15s %13s %23s %7s %8s %6s\n", "a ray's", "node steps (99 %, most)",
-                "triangle tests (99 %)", "leaves", "bytes of both", "lanes (bound)", "of triangles (empty)", "ns", "Msteps/s",
-                "GB/s");
+    std::printf("  %-9s %23s %13s %6s %14s %19s %25s %8s %8s %6s\n", "profile", "node steps (99 %, most)", "tests (99 %)",
+                "leaves", "bytes of both", "node passes, lanes", "test passes, lanes, empty", "ns", "Msteps/s", "GB/s");
     uint32_t subgroup = 0;
     for (const RaySetResult& set : results) {
         if (!set.profile) continue;
         const RayProfile& p = *set.profile;
+        const LoopLanes &node = p.nodeLanes, &test = p.triangleLanes;
         subgroup = p.subgroupSize;
         std::printf(
-            "  %-9s %9.1f (%5u, %5u) %14.2f (%4u) %7.2f %7.0f + %5.0f %4.0f %% (%3.0f) %9.0f %% (%2.0f) (%4.1f) %7.2f %8.1f "
-            "%6.2f\n",
+            "  %-9s %9.1f (%5u, %5u) %7.2f (%3u) %6.2f %6.0f + %5.0f %6.2f %2.0f of %2.0f %% %7.2f %2.0f of %2.0f %% %5.0f %% "
+            "%8.2f %8.0f %6.2f\n",
             set.rays.c_str(), p.nodeSteps.mean, p.nodeSteps.percentile99, p.nodeSteps.most, p.triangleTests.mean,
-            p.triangleTests.percentile99, p.leaves.mean, p.nodeBytes, p.triangleBytes, 100 * p.nodeLanes.share,
-            100 * p.nodeLanes.bound, 100 * p.triangleLanes.share, 100 * p.triangleLanes.bound, 100 * p.triangleLanes.empty, p.ns,
-            p.stepsPerSecond() * 1e-6, p.bytesPerSecond() * 1e-9);
+            p.triangleTests.percentile99, p.leaves.mean, p.nodeBytes, p.triangleBytes, node.passes, 100 * node.inUse,
+            100 * node.bound, test.passes, 100 * test.inUse, 100 * test.bound, 100 * test.empty, p.ns, p.stepsPerSecond() * 1e-6,
+            p.bytesPerSecond() * 1e-9);
     }
     std::printf("  %u lanes in a subgroup; registers %s, stack %s\n", subgroup, toldBy(statistics, kRegisters).c_str(),
                 toldBy(statistics, kStack).c_str());
