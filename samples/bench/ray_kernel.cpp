@@ -43,6 +43,7 @@ struct RayBlob {
             minirtc::analyseEffects(in.scene, in.geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT, false);
         effects.profile = counting;
         std::vector<minirtc::Kernel> compiled;
+        compiled.reserve(kernels.size());
         for (const std::string& name : kernels) compiled.push_back(minirtc::compileKernel(name, effects));
         bytes = minirtc::assembleBlob({in.scene, in.geometry, in.bvh, nodes, volumes, effects, compiled});
         sceneBytes = nodes.words.size() * sizeof(uint32_t) + in.bvh.order.size() * kPrimitiveBytes;
