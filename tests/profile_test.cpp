@@ -251,3 +251,17 @@ TEST_CASE("a profile's figures follow from the counts, idle rays in passes alone
     CHECK(profile.triangleLanes.empty == 0);
     CHECK(profileOf({}, 0, 32, 48).nodeSteps.mean == 0);
 }
+
+TEST_CASE("only kernels that count hold what counts") {
+    minirtc::EffectSet effects;
+    effects[minirtc::Effect::triangles].included = true;
+    for (const char* name : {"rays", "rays_once"}) {
+        effects.profile = false;
+        const minirtc::Kernel timed = minirtc::compileKernel(name, effects);
+        effects.profile = true;
+        const minirtc::Kernel counting = minirtc::compileKernel(name, effects);
+        CHECK(counting.bindings == (timed.bindings | 1u << MINIRT_BINDING_QUEUES));
+        CHECK((timed.bindings >> MINIRT_BINDING_QUEUES & 1u) == 0);
+        CHECK(timed.spirv.size() < counting.spirv.size());
+    }
+}
