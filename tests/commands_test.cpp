@@ -526,7 +526,7 @@ TEST_CASE("minirt-bench writes what it measured") {
     if (!test::haveDevice()) return;
     const test::TemporaryDir dir;
     const std::string file = (dir.path() / "bench.json").string();
-    const Outcome outcome = run({MINIRT_BENCH, "--knots", "500,1500", "--size", "64x64", "--rounds", "1", "--frames",
+    const Outcome outcome = run({MINIRT_BENCH, "--knots", "500,1500", "--size", "64x64", "--rounds", "1", "--profile", "--frames",
                                  sampleScene(), "--spp", "1", "--json", file});
     CAPTURE(outcome.err);
     REQUIRE(outcome.exitCode == 0);
@@ -534,8 +534,13 @@ TEST_CASE("minirt-bench writes what it measured") {
     const auto& mesh = json["meshes"][0];
     CHECK(mesh["triangles"].get<int>() > 400);
     CHECK(mesh["bytes_per_triangle"]["blob"].get<double>() < 100);
-    for (const char* rays : {"primary", "shadow", "diffuse", "shuffled"})
+    for (const char* rays : {"primary", "shadow", "diffuse", "shuffled"}) {
         CHECK(mesh["rays"][rays]["tracers"]["minirt"]["mrays_per_s"]["median"].get<double>() > 0);
+        const auto& profile = mesh["rays"][rays]["profile"];
+        CHECK(profile["node_steps"]["mean"].get<double>() >= 1);
+        CHECK(profile["node_steps_per_s"].get<double>() > 0);
+        CHECK(profile["differing"] == 0);
+    }
     CHECK(mesh["hierarchies"]["minirt high"]["sah_cost"].get<double>() > 1);
     CHECK(json["scenes"][0]["frames"]["whitted"]["ms_per_sample"]["median"].get<double>() > 0);
     if (mesh["rays"]["primary"]["tracers"].contains("Embree robust")) {

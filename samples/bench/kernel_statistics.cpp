@@ -152,6 +152,13 @@ double largestFigure(const std::vector<KernelStatistics>& statistics, const std:
     return largest;
 }
 
+std::vector<KernelStatistics> statisticsOf(const std::string& device, const std::function<void(minirt_context*)>& make) {
+    recorder = {};
+    const Stage stage(device, "", instanceFunction);
+    if (recorder.programs && recorder.statistics) make(stage.context());
+    return std::move(recorder.found);
+}
+
 std::vector<KernelStatistics> kernelStatistics(const std::string& device, const std::string& blob) {
     recorder = {};
     Stage stage(device, blob, instanceFunction);

@@ -26,6 +26,7 @@ struct Options {
     uint32_t startTriangles = 0;  // 0: no knot is started
     uint32_t samples = 4;
     bool trees = true;
+    bool profile = false;
 };
 
 const std::map<std::string, minirtc::LayoutChoice> kLayouts = {{"auto", minirtc::LayoutChoice::automatic},
@@ -63,6 +64,8 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--seed", o.rays.seed, "Of the secondary rays")->capture_default_str();
     app.add_option("--layout", o.layout, "Boxes of the hierarchy")->check(CLI::IsMember(kLayouts))->capture_default_str();
     app.add_option("--bvh", o.bvh, "Building of the hierarchy")->check(CLI::IsMember(kQualities))->capture_default_str();
+    app.add_flag("--profile", o.profile,
+                 "Count what traversal does for the same rays: node steps, triangle tests, bytes, lanes in use");
     app.add_flag("--alone", o.rays.alone, "Trace by minirt alone");
     app.add_flag("!--no-trees", o.trees, "Leave the building of hierarchies out");
 }
@@ -77,21 +80,38 @@ void settle(const CLI::App& app, const minirt_device_info& device, Options& o) {
     if (app.count("--per-hit") == 0) o.rays.perHit = device.is_cpu ? 1 : 8;
 }
 
+/// Counted by another kernel than the one that is timed; null without --profile.
+std::unique_ptr<RayKernel> countingKernel(const RayScene& scene, const Options& o, const Device& device) {
+    if (!o.profile) return nullptr;
+    return std::make_unique<RayKernel>(device.context(), scene, RayKernel::Counting::on);
+}
+
+/// The table of the profile, and what the driver tells of the kernel that was timed.
+void profileMesh(const RayScene& scene, const Options& o, const std::vector<RaySetResult>& rays, Json& json) {
+    const auto make = [&](minirt_context* context) { RayKernel::makePipeline(context, scene); };
+    const std::vector<KernelStatistics> statistics = statisticsOf(o.device, make);
+    printProfile(rays, statistics);
+    json["driver_statistics"] = toJson(statistics);
+}
+
 /// Returns whether all hits agree.
 bool benchMesh(const Mesh& mesh, const Options& o, const Device& device, DriverPipeline* pipeline, std::vector<MeshRays>& all,
                Json& json) {
     const size_t triangles = mesh.triangles.size();
     const minirtc::Bvh bvh = minirtc::buildBvh(mesh.geometry, 0, kQualities.at(o.bvh));
-    RayKernel kernel(device.context(), mesh.scene, mesh.geometry, bvh, kLayouts.at(o.layout));
+    const RayScene scene{mesh.scene, mesh.geometry, bvh, kLayouts.at(o.layout)};
+    RayKernel kernel(device.context(), scene);
+    const std::unique_ptr<RayKernel> counting = countingKernel(scene, o, device);
     const auto perTriangle = [&](uint64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(triangles); };
     std::printf("%s: %zu triangles, %s boxes; bytes a triangle: %.1f in the blob, %.1f on the device\n", mesh.name.c_str(),
                 triangles, kernel.layout(), perTriangle(kernel.bytes().blob), perTriangle(kernel.bytes().device));
-    const std::vector<RaySetResult> rays = benchRays(mesh, kernel, pipeline, o.rays);
+    const std::vector<RaySetResult> rays = benchRays(mesh, kernel, counting.get(), pipeline, o.rays);
     all.push_back({triangles, rays});
     print(rays);
     json = {{"mesh", mesh.name}, {"triangles", triangles}, {"layout", kernel.layout()}};
     json["bytes_per_triangle"] = {{"blob", perTriangle(kernel.bytes().blob)}, {"device", perTriangle(kernel.bytes().device)}};
     json["rays"] = toJson(rays);
+    if (o.profile) profileMesh(scene, o, rays, json);
     if (pipeline) json["driver_structures"] = {{"build_ms", pipeline->buildMs()}, {"bytes", pipeline->structureBytes()}};
     if (o.trees) {
         const std::vector<TreeResult> trees = benchTrees(mesh, o.rays.rounds);

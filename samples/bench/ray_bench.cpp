@@ -45,8 +45,9 @@ double awake(const std::function<double()>& run) {
 /// All that trace one mesh.
 class Field {
 public:
-    Field(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline, const RayBenchOptions& options)
+    Field(const Mesh& mesh, RayKernel& kernel, RayKernel* counting, DriverPipeline* pipeline, const RayBenchOptions& options)
         : kernel_(kernel),
+          counting_(counting),
           pipeline_(pipeline),
           rounds_(options.rounds),
           tolerance_(kTolerance * surroundingsOf(mesh.triangles).radius) {
@@ -76,6 +77,7 @@ public:
         const std::vector<Hit> own = kernel_.hits();
         result.hits = agreement(own, own, true, 0).hits;
         judge(set.anyHit, own, result);
+        if (counting_) result.profile = profileOf(set, own, result.contenders.front());
         return result;
     }
 
@@ -124,11 +126,21 @@ private:
         }
     }
 
+    RayProfile profileOf(const RaySet& set, const std::vector<Hit>& own, const ContenderResult& timed) {
+        counting_->setRays(set.rays);
+        counting_->trace(set.anyHit);
+        RayProfile profile = bench::profileOf(counting_->work(), set.rays.size(), kernel_.nodeBytes(), kernel_.primitiveBytes());
+        profile.ns = kernel_.isGpu() ? 1e3 / timed.mraysPerSecond.median : timed.processorNs.median;
+        profile.hits = agreement(own, counting_->hits(), set.anyHit, tolerance_);
+        return profile;
+    }
+
     static constexpr const char* kPipeline = "driver's pipeline";
     static constexpr const char* kRobust = "Embree robust";
     static constexpr const char* kFast = "Embree";
 
     RayKernel& kernel_;
+    RayKernel* counting_;
     DriverPipeline* pipeline_;
     int rounds_;
     float tolerance_;
@@ -138,13 +150,14 @@ private:
 }  // namespace
 
 bool RaySetResult::agrees() const {
+    if (profile && !profile->hits.good()) return false;
     return std::all_of(contenders.begin(), contenders.end(),
                        [](const ContenderResult& c) { return !c.mustAgree || c.agreement->good(); });
 }
 
-std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline,
+std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, RayKernel* counting, DriverPipeline* pipeline,
                                     const RayBenchOptions& options) {
-    Field field(mesh, kernel, pipeline, options);
+    Field field(mesh, kernel, counting, pipeline, options);
     RaySet primary{"primary", primaryRays(surroundingsOf(mesh.triangles), options.width, options.height), false, true};
     std::vector<RaySetResult> results = {field.trace(primary)};
     SecondaryRays secondary = secondaryRays(mesh.triangles, primary.rays, kernel.hits(), options.perHit, options.seed);

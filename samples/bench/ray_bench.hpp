@@ -5,7 +5,7 @@
 #include "agreement.hpp"
 #include "driver_pipeline.hpp"
 #include "meshes.hpp"
-#include "ray_kernel.hpp"
+#include "ray_profile.hpp"
 #include "timing.hpp"
 
 namespace bench {
@@ -34,12 +34,13 @@ struct RaySetResult {
     size_t count = 0;
     size_t hits = 0;
     std::vector<ContenderResult> contenders;
-    /// So it is with every contender that must agree.
+    std::optional<RayProfile> profile = {};  // where a kernel that counts was there
+    /// So it is with every contender that must agree, and with the kernel that counts.
     bool agrees() const;
 };
 
-/// Of one mesh: primary, shadow, diffuse and the diffuse ones in random order. `pipeline` may be null.
-std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, DriverPipeline* pipeline,
+/// Of one mesh: primary, shadow, diffuse and the diffuse ones in random order. `counting`, a kernel that counts, and `pipeline` may be null.
+std::vector<RaySetResult> benchRays(const Mesh& mesh, RayKernel& kernel, RayKernel* counting, DriverPipeline* pipeline,
                                     const RayBenchOptions& options);
 
 }  // namespace bench

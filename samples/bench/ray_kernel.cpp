@@ -18,7 +18,8 @@ namespace detail = minirt_detail;
 
 namespace {
 
-constexpr uint32_t kRowRays = 8;                  // of the image that the kernel takes the rays for
+constexpr uint32_t kRowRays = 8;  // of the image that the kernel takes the rays for
+constexpr uint32_t kPrimitiveBytes = MINIRT_PRIMITIVE_ROWS * sizeof(minirt_vec4);
 constexpr uint64_t kMostStateBytes = 1ull << 30;  // of rays whose budget of steps is spent
 
 struct DeviceHit {
@@ -26,20 +27,54 @@ struct DeviceHit {
     uint32_t slot;
 };
 
-static_assert(sizeof(Ray) == 32 && sizeof(DeviceHit) == 8, "the layout that the kernel reads and writes");
+static_assert(sizeof(Ray) == 32 && sizeof(DeviceHit) == 8 && sizeof(RayWork) == 32,
+              "the layout that the kernel reads and writes");
+
+/// A blob with kernels for rays alone.
+struct RayBlob {
+    std::vector<uint8_t> bytes;
+    uint64_t sceneBytes = 0;  // of the hierarchy and the primitives
+
+    RayBlob(const RayScene& in, bool counting, const std::vector<std::string>& kernels) {
+        const minirtc::EncodedNodes nodes = minirtc::encodeNodes(in.bvh, in.geometry, in.layout);
+        minirtc::Diagnostics diagnostics;
+        const minirtc::Volumes volumes = minirtc::analyseVolumes(in.scene, in.geometry, diagnostics);
+        minirtc::EffectSet effects =
+            minirtc::analyseEffects(in.scene, in.geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT, false);
+        effects.profile = counting;
+        std::vector<minirtc::Kernel> compiled;
+        compiled.reserve(kernels.size());
+        for (const std::string& name : kernels) compiled.push_back(minirtc::compileKernel(name, effects));
+        bytes = minirtc::assembleBlob({in.scene, in.geometry, in.bvh, nodes, volumes, effects, compiled});
+        sceneBytes = nodes.words.size() * sizeof(uint32_t) + in.bvh.order.size() * kPrimitiveBytes;
+    }
+};
 
 }  // namespace
 
 struct RayKernel::Insides {
     minirt_context* context = nullptr;
     minirt_scene* scene = nullptr;
+    bool counting = false;
     std::vector<uint32_t> order;  // slot -> primitive
     SceneBytes bytes;
+    detail::Buffer workReadBack;
     size_t rayCount = 0;
     uint32_t groups = 0;
     uint32_t groupsAtOnce = 0;
 
-    ~Insides() { minirt_unload(scene); }
+    Insides(minirt_context* on, const RayBlob& blob) : context(on) {
+        require(minirt_load_memory(context, blob.bytes.data(), blob.bytes.size(), &scene));
+        const minirt_kernel* kernels[detail::kMostKernels] = {};
+        for (uint32_t i = 0; i < scene->kernelCount; ++i) kernels[i] = &scene->kernels[i];
+        require(detail::activateKernels(scene, kernels));
+    }
+    ~Insides() {
+        detail::destroyBuffer(context, workReadBack);
+        minirt_unload(scene);
+    }
+    Insides(const Insides&) = delete;
+    Insides& operator=(const Insides&) = delete;
 
     void require(minirt_result result) const {
         if (result) throw std::runtime_error(std::string("rays on the device: ") + minirt_last_message(context));
@@ -59,6 +94,7 @@ struct RayKernel::Insides {
         require(detail::ensureBuffer(scene, MINIRT_BINDING_FILM, rays * sizeof(Ray), usage));
         require(detail::ensureBuffer(scene, MINIRT_BINDING_RAY_COUNTS, rays * sizeof(DeviceHit), usage));
         require(detail::ensureBuffer(scene, MINIRT_BINDING_STATE, groupsAtOnce * groupBytes, 0));
+        if (counting) require(detail::ensureBuffer(scene, MINIRT_BINDING_QUEUES, rays * sizeof(RayWork), usage));
         detail::writeDescriptors(scene);
     }
 
@@ -127,29 +163,15 @@ struct RayKernel::Insides {
     }
 };
 
-RayKernel::RayKernel(minirt_context* context, const minirtc::Scene& scene, const minirtc::Geometry& geometry,
-                     const minirtc::Bvh& bvh, minirtc::LayoutChoice layout)
-    : insides_(new Insides) {
-    const minirtc::EncodedNodes nodes = minirtc::encodeNodes(bvh, geometry, layout);
-    minirtc::Diagnostics diagnostics;
-    const minirtc::Volumes volumes = minirtc::analyseVolumes(scene, geometry, diagnostics);
-    const minirtc::EffectSet effects =
-        minirtc::analyseEffects(scene, geometry, volumes, nodes.layout == MINIRT_NODES_FLOAT, false);
-    const std::vector<uint8_t> blob =
-        minirtc::assembleBlob({scene,
-                               geometry,
-                               bvh,
-                               nodes,
-                               volumes,
-                               effects,
-                               {minirtc::compileKernel("rays_once", effects), minirtc::compileKernel("rays", effects)}});
-    insides_->context = context;
-    insides_->order = bvh.order;
-    insides_->require(minirt_load_memory(context, blob.data(), blob.size(), &insides_->scene));
-    const minirt_kernel* kernels[detail::kMostKernels] = {&insides_->scene->kernels[0], &insides_->scene->kernels[1]};
-    insides_->require(detail::activateKernels(insides_->scene, kernels));
+RayKernel::RayKernel(minirt_context* context, const RayScene& scene, Counting counting) {
+    const bool counts = counting == Counting::on;
+    if (counts && !context->hasBallots) throw std::runtime_error("counting needs subgroup ballots, which this device lacks");
+    const RayBlob blob(scene, counts, {"rays_once", "rays"});
+    insides_ = std::make_unique<Insides>(context, blob);
+    insides_->counting = counts;
+    insides_->order = scene.bvh.order;
     const detail::Buffer* buffers = insides_->scene->buffers;
-    insides_->bytes.blob = nodes.words.size() * sizeof(uint32_t) + bvh.order.size() * MINIRT_PRIMITIVE_ROWS * sizeof(minirt_vec4);
+    insides_->bytes.blob = blob.sceneBytes;
     insides_->bytes.device = buffers[MINIRT_BINDING_NODES].size + buffers[MINIRT_BINDING_PRIMITIVES].size;
 }
 
@@ -185,6 +207,14 @@ std::vector<Hit> RayKernel::hits() {
     return hits;
 }
 
+std::vector<RayWork> RayKernel::work() {
+    const void* data = nullptr;
+    insides_->require(detail::readBuffer(insides_->scene, MINIRT_BINDING_QUEUES, insides_->workReadBack, &data));
+    std::vector<RayWork> work(size_t{insides_->groups} * detail::kBlockPixels);
+    std::memcpy(work.data(), data, work.size() * sizeof(RayWork));
+    return work;
+}
+
 bool RayKernel::isGpu() const {
     return !insides_->context->info.is_cpu;
 }
@@ -195,6 +225,19 @@ const char* RayKernel::layout() const {
 
 SceneBytes RayKernel::bytes() const {
     return insides_->bytes;
+}
+
+uint32_t RayKernel::nodeBytes() const {
+    const minirt_scene* scene = insides_->scene;
+    return scene->wideNodes || scene->desc.node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
+}
+
+uint32_t RayKernel::primitiveBytes() const {
+    return kPrimitiveBytes;
+}
+
+void RayKernel::makePipeline(minirt_context* context, const RayScene& scene) {
+    const Insides pipeline(context, RayBlob(scene, false, {"rays_once"}));
 }
 
 struct DeviceCopy::Insides {

@@ -16,11 +16,32 @@ struct SceneBytes {
     uint64_t device = 0;
 };
 
+/// What the kernel does for one ray (shaders/effects/profile.glsl). Passes are those of a subgroup, counted by one of its lanes: they mean something
+/// in sums alone.
+struct RayWork {
+    uint32_t nodeSteps, triangleTests, leaves;
+    uint32_t subgroupSize;
+    uint32_t nodePasses, trianglePasses;            // with a lane in them
+    uint32_t emptyNodePasses, emptyTrianglePasses;  // with none, which run all the same where lanes are masked
+};
+
+/// The scene that rays are traced in, and how.
+struct RayScene {
+    const minirtc::Scene& scene;
+    const minirtc::Geometry& geometry;
+    const minirtc::Bvh& bvh;
+    minirtc::LayoutChoice layout = minirtc::LayoutChoice::automatic;
+};
+
 class RayKernel {
 public:
-    /// `context` must outlive the object. Throws std::runtime_error.
-    RayKernel(minirt_context* context, const minirtc::Scene& scene, const minirtc::Geometry& geometry, const minirtc::Bvh& bvh,
-              minirtc::LayoutChoice layout);
+    /// Counting takes time, so kernels that count are not those that are timed.
+    enum class Counting { off, on };
+
+    /// `context` must outlive the object. Throws std::runtime_error, also where kernels shall count on a device without subgroup ballots.
+    RayKernel(minirt_context* context, const RayScene& scene, Counting counting = Counting::off);
+    /// Makes the pipeline of the kernel that is timed, and nothing else: for a driver's statistics. Throws std::runtime_error.
+    static void makePipeline(minirt_context* context, const RayScene& scene);
     ~RayKernel();
     RayKernel(const RayKernel&) = delete;
     RayKernel& operator=(const RayKernel&) = delete;
@@ -33,9 +54,14 @@ public:
     bool isGpu() const;
     /// Of the last trace, by primitive of the Geometry.
     std::vector<Hit> hits();
+    /// Of the last trace by kernels that count: of whole groups, the last of which has a few idle rays at its end.
+    std::vector<RayWork> work();
 
     const char* layout() const;
     SceneBytes bytes() const;
+    /// What a node step and a triangle test fetch on the device.
+    uint32_t nodeBytes() const;
+    uint32_t primitiveBytes() const;
 
 private:
     struct Insides;

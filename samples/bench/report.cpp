@@ -1,6 +1,7 @@
 #include "report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace bench {
@@ -20,6 +21,16 @@ void print(const LoadResult& load) {
         "before\n",
         load.load.median, static_cast<double>(load.bytes) / load.load.median * 1e-6, load.ratio.median, load.ratio.lower,
         load.ratio.upper, load.ratioAgain.median, load.ratioAgain.lower, load.ratioAgain.upper);
+}
+
+/// Words by which drivers name a figure.
+const std::vector<std::string> kRegisters = {"egister"};
+const std::vector<std::string> kStack = {"tack", "cratch", "ocal Mem"};
+
+/// "48"
+std::string toldBy(const std::vector<KernelStatistics>& statistics, const std::vector<std::string>& words) {
+    const double largest = largestFigure(statistics, words);
+    return largest < 0 ? "not told" : std::to_string(std::lround(largest));
 }
 
 /// "48 of 96": a figure that drivers name by one of `words`, of the pruned kernel and of the whole one.
@@ -54,6 +65,37 @@ Json toJson(const LoadResult& load) {
             {"copy_again_over_load", toJson(load.ratioAgain)}};
 }
 
+Json toJson(const std::vector<KernelStatistics>& statistics) {
+    Json json = Json::array();
+    for (const KernelStatistics& program : statistics) {
+        Json figures = Json::object();
+        for (const auto& [name, value] : program.figures) figures[name] = value;
+        json.push_back({{"program", program.program}, {"figures", figures}});
+    }
+    return json;
+}
+
+Json toJson(const RayProfile& p) {
+    const auto count = [](const WorkCount& c) {
+        return Json{{"mean", c.mean}, {"percentile_99", c.percentile99}, {"most", c.most}};
+    };
+    const auto lanes = [](const LoopLanes& l) {
+        return Json{{"passes", l.passes}, {"empty", l.empty}, {"in_use", l.inUse}, {"bound", l.bound}};
+    };
+    return {{"subgroup_size", p.subgroupSize},
+            {"node_steps", count(p.nodeSteps)},
+            {"triangle_tests", count(p.triangleTests)},
+            {"leaves", count(p.leaves)},
+            {"node_bytes", p.nodeBytes},
+            {"triangle_bytes", p.triangleBytes},
+            {"node_lanes", lanes(p.nodeLanes)},
+            {"triangle_lanes", lanes(p.triangleLanes)},
+            {"ns", p.ns},
+            {"node_steps_per_s", p.stepsPerSecond()},
+            {"bytes_per_s", p.bytesPerSecond()},
+            {"differing", p.hits.differing()}};
+}
+
 Json toJson(const std::vector<RaySetResult>& results) {
     Json json;
     for (const RaySetResult& set : results) {
@@ -66,6 +108,7 @@ Json toJson(const std::vector<RaySetResult>& results) {
             if (c.agreement) entry["differing"] = {{"hit_or_miss", c.agreement->onlyOne}, {"distance", c.agreement->distance}};
         }
         json[set.rays] = {{"rays", set.count}, {"hits", set.hits}, {"tracers", contenders}};
+        if (set.profile) json[set.rays]["profile"] = toJson(*set.profile);
     }
     return json;
 }
@@ -111,11 +154,7 @@ Json toJson(const EffectsResult& result) {
     const auto kernel = [](const KernelResult& k) {
         Json json = {
             {"spirv_bytes", k.spirvBytes}, {"first_dispatch_ms", k.firstDispatchMs}, {"ms_per_sample", toJson(k.msPerSample)}};
-        for (const KernelStatistics& program : k.statistics) {
-            Json figures = Json::object();
-            for (const auto& [name, value] : program.figures) figures[name] = value;
-            json["driver_statistics"].push_back({{"program", program.program}, {"figures", figures}});
-        }
+        if (!k.statistics.empty()) json["driver_statistics"] = toJson(k.statistics);
         return json;
     };
     return {{"scene", result.scene},
@@ -136,6 +175,27 @@ void print(const std::vector<RaySetResult>& results) {
             if (c.agreement) std::printf(" %10zu of %zu", c.agreement->differing(), c.agreement->rays);
             std::printf("\n");
         }
+}
+
+void printProfile(const std::vector<RaySetResult>& results, const std::vector<KernelStatistics>& statistics) {
+    std::printf("  %-9s %23s %13s %6s %14s %19s %25s %8s %8s %6s\n", "profile", "node steps (99 %, most)", "tests (99 %)",
+                "leaves", "bytes of both", "node passes, lanes", "test passes, lanes, empty", "ns", "Msteps/s", "GB/s");
+    uint32_t subgroup = 0;
+    for (const RaySetResult& set : results) {
+        if (!set.profile) continue;
+        const RayProfile& p = *set.profile;
+        const LoopLanes &node = p.nodeLanes, &test = p.triangleLanes;
+        subgroup = p.subgroupSize;
+        std::printf(
+            "  %-9s %9.1f (%5u, %5u) %7.2f (%3u) %6.2f %6.0f + %5.0f %6.2f %2.0f of %2.0f %% %7.2f %2.0f of %2.0f %% %5.0f %% "
+            "%8.2f %8.0f %6.2f\n",
+            set.rays.c_str(), p.nodeSteps.mean, p.nodeSteps.percentile99, p.nodeSteps.most, p.triangleTests.mean,
+            p.triangleTests.percentile99, p.leaves.mean, p.nodeBytes, p.triangleBytes, node.passes, 100 * node.inUse,
+            100 * node.bound, test.passes, 100 * test.inUse, 100 * test.bound, 100 * test.empty, p.ns, p.stepsPerSecond() * 1e-6,
+            p.bytesPerSecond() * 1e-9);
+    }
+    std::printf("  %u lanes in a subgroup; registers %s, stack %s\n", subgroup, toldBy(statistics, kRegisters).c_str(),
+                toldBy(statistics, kStack).c_str());
 }
 
 void print(const std::vector<TreeResult>& results) {
@@ -178,7 +238,7 @@ void print(const std::vector<EffectsResult>& results) {
                     e.integrator.c_str(), static_cast<double>(e.pruned.spirvBytes) * 1e-3,
                     static_cast<double>(e.whole.spirvBytes) * 1e-3, e.pruned.firstDispatchMs, e.whole.firstDispatchMs,
                     e.pruned.msPerSample.median, e.whole.msPerSample.median, e.speedup.median, e.speedup.lower, e.speedup.upper);
-        if (told) std::printf(" %s | %s |", pairOf(e, {"egister"}).c_str(), pairOf(e, {"tack", "cratch", "ocal Mem"}).c_str());
+        if (told) std::printf(" %s | %s |", pairOf(e, kRegisters).c_str(), pairOf(e, kStack).c_str());
         std::printf("\n");
     }
 }

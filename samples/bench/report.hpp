@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 Json toJson(const Spread& spread);
 Json toJson(const StartSpreads& start);
 Json toJson(const LoadResult& load);
+Json toJson(const std::vector<KernelStatistics>& statistics);
+Json toJson(const RayProfile& profile);
 Json toJson(const std::vector<RaySetResult>& results);
 Json toJson(const std::vector<TreeResult>& results);
 Json toJson(const std::vector<Scaling>& results);
@@ -22,6 +24,8 @@ Json toJson(const SceneResult& result);
 Json toJson(const EffectsResult& result);
 
 void print(const std::vector<RaySetResult>& results);
+/// `statistics`: of the kernel that was timed.
+void printProfile(const std::vector<RaySetResult>& results, const std::vector<KernelStatistics>& statistics);
 void print(const std::vector<TreeResult>& results);
 void print(const std::vector<Scaling>& results);
 void print(const SceneResult& result);

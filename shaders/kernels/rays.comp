@@ -17,6 +17,7 @@ void main() {
     }
     uint steps = 0u;
     traverse(ray, steps, STEP_BUDGET);
+    storeWork(task.filmIndex);
     word = 0u;
     putWord(task.slot, word, isDone(ray) ? QUERY_DONE : QUERY_PENDING);
     if (isDone(ray)) {

@@ -18,6 +18,7 @@ void main() {
     Traversal ray = fetchQuery(index);
     uint steps = 0u;
     traverse(ray, steps, STEP_BUDGET);
+    storeWork(index);
     queryHits[index] = QueryHit(ray.t, ray.slot);
     if (!isDone(ray)) atomicAdd(counters.pending, 1u);
 }

@@ -38,6 +38,7 @@ void intersectLeaf(inout Traversal ray, Shear shear, uint leaf, inout uint steps
     uint end = slot + (leaf & 7u) + 1u;
     do {
         steps += PASS;
+        countTriangleTest();
         PrimitiveHit found = intersectPrimitive(slot, ray.origin, ray.direction, shear, ray.t);
         ray.t = found.hit ? found.t : ray.t;
         ray.slot = found.hit ? slot : ray.slot;
@@ -54,10 +55,12 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
     NodeStack stack = ray.stack;
     if (node != NODE_NONE) {  // a ray that is done takes one step, so that whoever waits for it gets on under any budget
         do {
+            countNodeBranch((node & MINIRT_LEAF) == 0u);
             if ((node & MINIRT_LEAF) == 0u) {
                 uint nodes = 0u;
                 do {
                     steps += PASS;
+                    countNodeStep();
                     ChildBoxes boxes = fetchNode(node);
                     BoxHit hit0 = intersectBox(slabs, boxes.lo0, boxes.hi0, ray.t);
                     BoxHit hit1 = intersectBox(slabs, boxes.lo1, boxes.hi1, ray.t);
@@ -66,8 +69,10 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
                     changeStack(stack, node, hit0.hit && hit1.hit, secondFirst ? boxes.ref0 : boxes.ref1, !(hit0.hit || hit1.hit));
                 } while ((node & MINIRT_LEAF) == 0u && (MASKS_LANES ? steps < budget : ++nodes < NODES_TOGETHER));
             }
+            countLeafBranch(node != NODE_NONE && (node & MINIRT_LEAF) != 0u);
             if (node != NODE_NONE && (node & MINIRT_LEAF) != 0u) {
                 do {
+                    countLeaf();
                     intersectLeaf(ray, shear, node, steps);
                     changeStack(stack, node, false, NODE_NONE, true);
                     if (ray.anyHit && ray.slot != MINIRT_NONE) node = NODE_NONE;
