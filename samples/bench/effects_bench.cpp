@@ -55,6 +55,8 @@ EffectsResult benchEffects(const fs::path& scene, const EffectsOptions& options)
                               }});
     }
     result.integrator = nameOf(stages[0]->scene().integrator);
+    result.width = options.width ? options.width : stages[0]->scene().width;
+    result.height = options.height ? options.height : stages[0]->scene().height;
     const std::vector<Times> times = takeTurns(contenders, options.rounds);
     for (size_t i = 0; i < 2; ++i) kernels[i]->msPerSample = spreadOf(times[i].ms);
     for (size_t i = 0; i < 2; ++i) kernels[i]->statistics = kernelStatistics(options.device, blobs[i].string());

@@ -25,6 +25,7 @@ struct KernelResult {
 struct EffectsResult {
     std::string scene;
     std::string integrator;  // the scene's
+    uint32_t width = 0, height = 0;
     KernelResult pruned, whole;
     Spread speedup;  // of the pruned kernel, round by round
 };

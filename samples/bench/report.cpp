@@ -154,11 +154,16 @@ Json toJson(const EffectsResult& result) {
     const auto kernel = [](const KernelResult& k) {
         Json json = {
             {"spirv_bytes", k.spirvBytes}, {"first_dispatch_ms", k.firstDispatchMs}, {"ms_per_sample", toJson(k.msPerSample)}};
-        if (!k.statistics.empty()) json["driver_statistics"] = toJson(k.statistics);
+        if (k.statistics.empty()) return json;
+        json["driver_statistics"] = toJson(k.statistics);
+        for (const auto& [name, words] : {std::pair{"registers", &kRegisters}, std::pair{"stack_bytes", &kStack}})
+            if (const double largest = largestFigure(k.statistics, *words); largest >= 0) json[name] = largest;
         return json;
     };
     return {{"scene", result.scene},
             {"integrator", result.integrator},
+            {"width", result.width},
+            {"height", result.height},
             {"pruned", kernel(result.pruned)},
             {"all_effects", kernel(result.whole)},
             {"speedup", toJson(result.speedup)}};
