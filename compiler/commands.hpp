@@ -24,9 +24,6 @@ struct BakeOptions {
 
 int bake(const BakeOptions& options);
 
-/// What the scene of a file calls for, before any lever or option.
-EffectSet effectsOf(const std::string& sceneFile, Diagnostics& diagnostics);
-
 struct LeversOptions {
     std::string scene;  // "": none
     bool json = false;

@@ -87,13 +87,14 @@ Baker::~Baker() {
 
 std::vector<Lever> Baker::levers() const {
     const auto& [scene, geometry, bvh, nodes, volumes] = prepared_;
+    // What the scene asks for: another integrator is a lever itself, and moves alone.
     const bool paths = scene.render.integrator != minirtc::Integrator::whitted;
     const minirtc::EffectSet effects = minirtc::analyseEffects(scene, geometry, volumes, false, paths);
     std::vector<Lever> levers;
     for (const minirtc::Lever& lever : minirtc::levers()) {
         if (lever.when == minirtc::LeverTime::bake)
-            levers.push_back(
-                leverOf(lever, minirtc::settingOf(lever, scene.render.accuracy, scene), minirtc::applies(lever, effects)));
+            levers.push_back(leverOf(lever, minirtc::settingOf(lever, scene.render.accuracy, scene),
+                                     minirtc::applies(lever, effects, {scene.render.integrator})));
     }
     return levers;
 }
