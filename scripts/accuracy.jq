@@ -1,7 +1,13 @@
 # docs/accuracy.md out of the JSON files of minirt-cost, of any number of devices; scripts/accuracy runs it. A device is a folder of files.
 
 def rounded(digits): . * pow(10; digits) | round / pow(10; digits);
-def percent: . * 100 | if fabs < 10 then rounded(1) else round end | (if . == 0 then 0 else . end | tostring) + " %";
+def significant($digits): if . == 0 then 0 else ($digits - 1 - (fabs | log10 | floor)) as $decimals | rounded($decimals) end;
+# As minirt-cost writes them: to two digits at most, near the whole by what is missing; 0 % is 0 alone.
+def percent: . * 100 | fabs as $size
+    | if $size > 0 and $size < 0.01 then "under 0.01 %"
+      elif $size > 99.99 and $size < 100 then "over 99.99 %"
+      elif $size > 99 and $size < 100 then "\(significant(if $size > 99.9 then 4 else 3 end)) %"
+      elif $size < 9.95 then "\(significant(2)) %" else "\(round) %" end;
 # "llvmpipe (LLVM 15.0.6, 256 bits)" is lavapipe to people.
 def short_name: if test("llvmpipe") then "lavapipe" else sub(" *\\(.*"; "") | sub("^NVIDIA "; "") end;
 def spread: "\(.median | rounded(2)) (\(.lower_quartile | rounded(2))–\(.upper_quartile | rounded(2)))";
@@ -69,7 +75,7 @@ def where_levers_matter:
     | table(["lever", "matters the most in", "loses nothing in"]);
 
 def scene_section:
-    .report as $r | "\n### `\(.scene)`, \(.name)\n\n\($r.width) × \($r.height), \($r.samples) of \($r.scene_samples) samples a pixel; its own settings take \($r.measurements[0].ms.median | rounded(2)) ms with relMSE \($r.measurements[0].error.relmse | rounded(5)); the reference has \($r.reference.samples) samples and relMSE \($r.reference.relmse | rounded(6)) of its own.\n",
+    .report as $r | "\n### `\(.scene)`, \(.name)\n\n\($r.width) × \($r.height), \($r.samples) of \($r.scene_samples) samples a pixel; its own settings take \($r.measurements[0].ms.median | rounded(2)) ms with relMSE \($r.measurements[0].error.relmse | significant(3)); the reference has \($r.reference.samples) samples and relMSE \($r.reference.relmse | significant(2)) of its own.\n",
     ($r.findings[] | "- " + .), ($r.levers[] | select(.applies | not) | "- \(.name) is left alone: \(.reason).");
 
 [inputs | {scene: (input_filename | sub(".*/"; "") | sub("\\.json$"; "")), name: (.device | short_name), report: .}]

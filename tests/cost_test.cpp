@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "../samples/cost/figures.hpp"
 #include "../samples/cost/page.hpp"
 #include "../samples/cost/page_pictures.hpp"
 #include "../samples/cost/pareto.hpp"
@@ -284,10 +285,26 @@ TEST_CASE("a bias counts as it will at the scene's own samples, where noise has 
     CHECK(many.removed == doctest::Approx(1 - 0.00012 / 0.00406));
 }
 
-TEST_CASE("percentages and numbers are as short as they may be") {
-    CHECK(cost::percent(0.021) == "2 %");
+TEST_CASE("percentages have two significant digits at most, and none but 0 and 1 are written as if they were these") {
+    CHECK(cost::percent(0.021) == "2.1 %");
+    CHECK(cost::percent(0.02) == "2 %");
     CHECK(cost::percent(0.004) == "0.4 %");
+    CHECK(cost::percent(-0.0314) == "-3.1 %");
+    CHECK(cost::percent(0.09949) == "9.9 %");
+    CHECK(cost::percent(0.0996) == "10 %");
+    CHECK(cost::percent(0.12345) == "12 %");
+    CHECK(cost::percent(1.5) == "150 %");
+    CHECK(cost::percent(0) == "0 %");
+    CHECK(cost::percent(0.000123) == "0.012 %");
+    CHECK(cost::percent(1e-5) == "under 0.01 %");
+    CHECK(cost::percent(0.9904) == "99 %");
     CHECK(cost::percent(0.996) == "99.6 %");
+    CHECK(cost::percent(0.9997) == "99.97 %");
+    CHECK(cost::percent(0.99999) == "over 99.99 %");
+    CHECK(cost::percent(1) == "100 %");
+}
+
+TEST_CASE("numbers have three significant digits") {
     CHECK(cost::number(0.00123) == "0.00123");
     CHECK(cost::number(1234) == "1234");
     CHECK(cost::number(0) == "0");

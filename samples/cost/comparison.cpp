@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
+
+#include "figures.hpp"
 
 namespace cost {
 namespace {
@@ -197,27 +198,6 @@ std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector
     for (size_t i : order)
         if (chosen.size() < 2 && std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
     return chosen;
-}
-
-std::string percent(double share) {
-    const double value = share * 100;
-    char text[32];
-    if (value > 99 && value < 99.95)
-        std::snprintf(text, sizeof text, "%.1f %%", value);
-    else
-        std::snprintf(text, sizeof text, std::abs(value) < 0.95 ? "%.1g %%" : "%.0f %%", value);
-    return text;
-}
-
-std::string number(double value) {
-    if (value == 0) return "0";
-    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    char text[48];
-    if (magnitude < -4)
-        std::snprintf(text, sizeof text, "%.2g", value);
-    else
-        std::snprintf(text, sizeof text, "%.*f", std::max(2 - magnitude, 0), value);
-    return text;
 }
 
 }  // namespace cost

@@ -41,10 +41,4 @@ std::string verdict(const Comparison& comparison);
 /// integrators matter, comes last.
 std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons);
 
-/// "2 %", "0.4 %", "21 %".
-std::string percent(double share);
-
-/// A number to three significant digits: "0.00123", "45.6", "1230".
-std::string number(double value);
-
 }  // namespace cost

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "figures.hpp"
 #include "page_pictures.hpp"
 #include "page_style.hpp"
 #include "plot.hpp"

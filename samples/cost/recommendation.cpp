@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "figures.hpp"
+
 namespace cost {
 namespace {
 

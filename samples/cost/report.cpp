@@ -1,5 +1,7 @@
 #include "report.hpp"
 
+#include "figures.hpp"
+
 namespace cost {
 
 std::string Report::nameOf(size_t measurement) const {
