@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "../samples/cost/confirmation.hpp"
 #include "../samples/cost/figures.hpp"
 #include "../samples/cost/page.hpp"
 #include "../samples/cost/page_pictures.hpp"
@@ -364,6 +365,65 @@ TEST_CASE("what is recommended is the fastest that keeps the quality, with the f
     report.measurements[6].error.relMse = 0.0104;
     report.measurements[6].slowdown = {0.8, 0.7, 0.96};  // repeats differ by more
     CHECK(cost::recommended(report) == 0);
+}
+
+TEST_CASE("what is fast by chance shuts nothing else out") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    report.measurements.push_back(measured({0, 1, 2}, 0.6, 0.01, 0.01));
+    CHECK(cost::recommended(report) == 7);
+    report.measurements.back().slowdown = {0.6, 0.55, 0.85};  // repeats differ by more than it is faster
+    CHECK(cost::recommended(report) == 6);
+    report.measurements.back().slowdown.upper = 0.79;
+    CHECK(cost::recommended(report) == 7);
+    report.measurements[6].slowdown.lower = 0.78;
+    CHECK(cost::recommended(report) == 6);
+}
+
+TEST_CASE("what is recommended is timed again, and replaced where it was fast by chance") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    report.measurements.push_back(measured({0, 1, 2}, 0.6, 0.01, 0.01));  // by chance
+    std::vector<cost::Configuration> timed;
+    const auto again = [&](const cost::Configuration& configuration, uint32_t rounds) -> std::optional<cost::Measurement> {
+        CHECK(rounds == 5);
+        timed.push_back(configuration);
+        return measured(configuration, timed.size() == 1 ? 0.9 : 0.81, 0.01, 0.01);
+    };
+    cost::confirmRecommendation(
+        again, 5, [] { return 60.0; }, report);
+    CHECK(timed == std::vector<cost::Configuration>{{0, 1, 2}, {1, 1, 1}});
+    CHECK(cost::recommended(report) == 6);
+    CHECK(report.confirmed);
+    CHECK(report.measurements[6].slowdown.median == 0.81);
+    CHECK(contains(cost::recommendationRule(report), "timed once more"));
+}
+
+TEST_CASE("no recommendation is timed again beyond the time") {
+    cost::Report report = sampleReport();
+    for (size_t samples : {0, 1, 2}) report.measurements.push_back(measured({1, 1, samples}, 0.5, 0.01, 0.01));
+    double clock = 0;
+    size_t calls = 0;
+    // Each turns out slow, so that the next one is to be timed; a picture takes what the device does and half as long beside it.
+    const auto again = [&](const cost::Configuration& configuration, uint32_t rounds) -> std::optional<cost::Measurement> {
+        clock += (rounds + 1) * 1.5 * 15.25e-3;
+        ++calls;
+        return measured(configuration, 1, 0.01, 0.01);
+    };
+    for (const double seconds : {0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 1.0}) {
+        CAPTURE(seconds);
+        clock = 0, calls = 0;
+        cost::Report copy = report;
+        cost::confirmRecommendation(
+            again, 5, [&] { return seconds - clock; }, copy);
+        CHECK(clock <= seconds);
+        CHECK_FALSE(copy.confirmed);
+        CHECK(calls == (seconds < 0.1 ? 0 : seconds < 0.3 ? 1 : seconds < 1 ? 2 : 3));
+    }
+    CHECK(cost::affordableRounds(report, 6, 5, 0.1) == 3);
+    CHECK(cost::affordableRounds(report, 6, 5, 0.09) == 0);
+    CHECK(cost::affordableRounds(report, 6, 5, 0.12) == 4);
+    CHECK(cost::affordableRounds(report, 6, 5, 100) == 5);
 }
 
 TEST_CASE("of noisy pictures the error counts that the scene's own samples leave") {

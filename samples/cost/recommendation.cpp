@@ -43,6 +43,11 @@ bool savesTime(const Measurement& m) {
     return m.slowdown.upper <= 1 - kLeastSaving;
 }
 
+/// By more than both spread: what is the fastest by chance shuts out nothing else.
+bool surelySlower(const Spread& slowdown, const Spread& fastest) {
+    return slowdown.median > fastest.median * (1 + kSameTime) && slowdown.lower > fastest.upper;
+}
+
 std::vector<size_t> changedLevers(const Report& report, size_t measurement) {
     const Configuration& own = report.measurements.front().configuration;
     std::vector<size_t> changed;
@@ -104,14 +109,14 @@ std::string renderOptions(const Report& report, bool all) {
 
 size_t recommended(const Report& report) {
     std::vector<size_t> candidates;
-    double fastest = 1;
+    Spread fastest = {1, 1, 1};
     for (size_t i = 1; i < report.measurements.size(); ++i) {
         const Measurement& m = report.measurements[i];
         if (!savesTime(m) || !keepsQuality(report, m)) continue;
         candidates.push_back(i);
-        fastest = std::min(fastest, m.slowdown.median);
+        if (m.slowdown.median < fastest.median) fastest = m.slowdown;
     }
-    const auto slow = [&](size_t i) { return report.measurements[i].slowdown.median > fastest * (1 + kSameTime); };
+    const auto slow = [&](size_t i) { return surelySlower(report.measurements[i].slowdown, fastest); };
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), slow), candidates.end());
     const auto best = std::min_element(candidates.begin(), candidates.end(), [&](size_t a, size_t b) {
         const size_t changedA = changedLevers(report, a).size();
@@ -142,7 +147,8 @@ std::string recommendationRule(const Report& report) {
     rule += report.reference.random ? ", as expected at the scene's " + std::to_string(report.sceneSamples) + " samples a pixel."
                                     : ", at the same samples as well, with at most " + percent(kMoreWrongPixels) +
                                           " more of the pixels visibly wrong there.";
-    rule += " Of those that are less than " + percent(kSameTime) + " slower than it, the one that changes the fewest settings";
+    rule += " Of those that are slower than it by less than " + percent(kSameTime) +
+            ", or by no more than the repeats spread, the one that changes the fewest settings";
     if (report.confirmed) rule += "; timed once more, since the fastest of many may be so by chance";
     return rule + ". It holds for this scene, this view and this device.";
 }
