@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "../samples/cost/commands.hpp"
 #include "../samples/cost/confirmation.hpp"
 #include "../samples/cost/figures.hpp"
+#include "../samples/cost/half_time.hpp"
 #include "../samples/cost/page.hpp"
 #include "../samples/cost/page_pictures.hpp"
 #include "../samples/cost/pareto.hpp"
@@ -345,11 +347,59 @@ TEST_CASE("a budget buys the least error that fits, and says what it gives up") 
     CHECK(cost::fastestMs(report.levers, report.measurements, 2) == doctest::Approx(2.5));
 }
 
+TEST_CASE(
+    "of budgets that buy about the same error, the one with the fewest changes is taken, and no time that is less by chance") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.97, 0.01, 0.01));
+    const auto choice = [&] { return cost::chooseWithin(40.5, report.levers, report.measurements, 1); };
+    REQUIRE(choice());
+    CHECK(choice()->configuration[0] == 2);  // 16 samples; Schlick's would be 16 too, with as much error
+    report.measurements.back() = measured({1, 1, 1}, 0.6, 0.01, 0.01);
+    CHECK(choice()->configuration[0] == 1);
+    report.measurements.back().slowdown = {0.6, 0.5, 1.1};
+    CHECK(choice()->configuration[0] == 2);
+    CHECK(choice()->samples == 16);
+}
+
+TEST_CASE("half the time is bought with the least error, or it is said that nothing measured halves it") {
+    cost::Report report = sampleReport();
+    CHECK(cost::halfTimeSentence(report) ==
+          "To halve the time, take 32 samples a pixel: 50 % less time, and the error rises from 0.000625 to 0.00125, as expected "
+          "at the scene's own samples.");
+    CHECK(cost::commandsFor(report, *cost::halfTime(report).choice).back() ==
+          "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32");
+    report.sceneSamples = 4;
+    CHECK(contains(cost::halfTimeSentence(report),
+                   "take 2 samples a pixel: 50 % less time, and the error rises from 0.0100 to 0.0200."));
+    report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
+    CHECK(cost::recommended(report) == 6);
+    CHECK(cost::halfTime(report).advised);
+    CHECK(cost::halfTimeSentence(report) == "This halves the time already.");
+}
+
+TEST_CASE("where not even one sample fits half the time, the fastest that surely saves some is named") {
+    cost::Report report = sampleReport();
+    report.levers[2].settings = {{"1", "1 sample", 1}, {"2", "2 samples", 2}};
+    report.levers[2].initial = 0;
+    report.sceneSamples = 1;
+    report.measurements = {measured({2, 1, 0}, 1, 0.01, 0.01), measured({0, 1, 0}, 0.8, 0.03, 0.2),
+                           measured({1, 1, 0}, 0.81, 0.02, 0.13), measured({2, 1, 1}, 2, 0.005, 0.01)};
+    report.measurements[2].sameSamples.relMse = 0;
+    CHECK(cost::halfTimeSentence(report) ==
+          "Nothing that was measured halves the time. The fastest is Schlick's Fresnel: 19 % less time, and the error rises from "
+          "0.0100 "
+          "to 0.0200; with it 12 % of the pixels look wrong.");
+    CHECK_FALSE(cost::halfTime(report).fits);
+    for (cost::Measurement& m : report.measurements) m.slowdown.upper = 1.2;
+    CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or surely saves any.");
+    CHECK_FALSE(cost::halfTime(report).choice);
+}
+
 TEST_CASE("what is recommended is the fastest that keeps the quality, with the fewest settings changed") {
     cost::Report report = sampleReport();
     CHECK(cost::recommended(report) == 0);
     CHECK(contains(cost::recommendationSentence(report), "Keep the scene's own settings"));
-    CHECK(cost::recommendedKeys(report).empty());
+    CHECK(cost::sceneKeys(report, cost::recommendedChoice(report)).empty());
     report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.0104, 0.011));
     CHECK(cost::recommended(report) == 6);
     CHECK(cost::recommendationSentence(report) ==
@@ -439,16 +489,17 @@ TEST_CASE("of noisy pictures the error counts that the scene's own samples leave
 TEST_CASE("what is recommended can be typed, or written into the scene file") {
     cost::Report report = sampleReport();
     report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
-    CHECK(cost::recommendedCommands(report) ==
+    CHECK(cost::commandsFor(report, cost::recommendedChoice(report)) ==
           std::vector<std::string>{"minirtc bake 'glass & <ice>.json' -o 'glass & <ice>.mrt' --set fresnel=schlick",
                                    "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32"});
-    CHECK(cost::recommendedKeys(report) == R"("render": {"spp": 32, "accuracy": {"fresnel": "schlick"}})");
+    CHECK(cost::sceneKeys(report, cost::recommendedChoice(report)) ==
+          R"("render": {"spp": 32, "accuracy": {"fresnel": "schlick"}})");
     CHECK(contains(cost::recommendationSentence(report), "Take Schlick's Fresnel and 32 samples a pixel: 50 % less time"));
     report.baked = false;
     report.file = "it's.mrt";
-    CHECK(cost::recommendedCommands(report) ==
+    CHECK(cost::commandsFor(report, cost::recommendedChoice(report)) ==
           std::vector<std::string>{R"(minirt-render 'it'\''s.mrt' -o 'glass & <ice>.png' --spp 32)"});
-    CHECK(cost::recommendedKeys(report).empty());
+    CHECK(cost::sceneKeys(report, cost::recommendedChoice(report)).empty());
     CHECK(cost::shellWord("scenes/a-b_1.json") == "scenes/a-b_1.json");
     CHECK(cost::shellWord("") == "''");
 }

@@ -9,9 +9,8 @@
 namespace cost {
 namespace {
 
-/// Less than this share of time, error or pixels is not worth a word.
+/// Less than this share of time or error is not worth a word.
 constexpr double kNoticeable = 0.005;
-constexpr double kNoticeablePixels = 0.002;
 
 bool isChance(const Estimate& difference, double noticeable) {
     return std::abs(difference.value) <= std::max(3 * difference.standardError, noticeable);

@@ -7,6 +7,9 @@
 
 namespace cost {
 
+/// Less than this share of the pixels is not worth a word.
+constexpr double kNoticeablePixels = 0.002;
+
 enum class ErrorChange { none, less, more };
 
 /// One of the two is the scene's own setting.

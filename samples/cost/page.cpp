@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "commands.hpp"
 #include "figures.hpp"
+#include "half_time.hpp"
 #include "page_pictures.hpp"
 #include "page_style.hpp"
 #include "plot.hpp"
@@ -107,20 +109,28 @@ std::string findingsSection(const Report& report) {
     return element("ul", "class=\"findings\"", items) + element("p", "class=\"soft\"", words);
 }
 
-/// How to get what the first sentence recommends, and by which rule it does.
-std::string howToSection(const Report& report) {
+/// What to type for a choice, or to write into the scene file.
+std::string typed(const Report& report, const std::string& heading, const BudgetChoice& choice) {
     std::string lines;
-    for (const std::string& command : recommendedCommands(report)) lines += escaped(command) + "\n";
+    for (const std::string& command : commandsFor(report, choice)) lines += escaped(command) + "\n";
+    std::string text = element("p", "", heading) + element("pre", "", lines);
+    const std::string keys = sceneKeys(report, choice);
+    const std::string beside = optionsBesideKeys(report, choice);
+    if (keys.empty()) return text;
+    text += element("p", "", "or write into the scene file, beside what its <code>render</code> section holds already,");
+    text += element("pre", "", escaped(keys));
+    if (!beside.empty()) text += element("p", "", "and give minirt-render <code>" + escaped(beside.substr(1)) + "</code>.");
+    return text;
+}
+
+/// How to get what the first sentences say, and by which rule they do.
+std::string howToSection(const Report& report) {
+    const HalfTime half = halfTime(report);
     std::string text =
-        element("p", "", recommended(report) ? "To get these settings, type" : "To render it with its own settings, type") +
-        element("pre", "", lines);
-    const std::string keys = recommendedKeys(report);
-    const std::string beside = recommendedOptionsBesideKeys(report);
-    if (!keys.empty())
-        text +=
-            element("p", "", "or write into the scene file, beside what its <code>render</code> section holds already,") +
-            element("pre", "", escaped(keys)) +
-            (beside.empty() ? "" : element("p", "", "and give minirt-render <code>" + escaped(beside.substr(1)) + "</code>."));
+        typed(report, recommended(report) ? "To get these settings, type" : "To render it with its own settings, type",
+              recommendedChoice(report));
+    if (half.choice && !half.advised)
+        text += typed(report, half.fits ? "For half the time, type" : "For the fastest, type", *half.choice);
     return element("div", "class=\"card howto\"", text + element("p", "class=\"soft\"", prose(recommendationRule(report))));
 }
 
@@ -137,7 +147,8 @@ std::string unsteadyWarning(const Report& report) {
 
 std::string head(const Report& report) {
     std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene)) +
-                       element("p", "class=\"answer\"", prose(recommendationSentence(report)));
+                       element("p", "class=\"answer\"", prose(recommendationSentence(report))) +
+                       element("p", "class=\"half\"", prose(halfTimeSentence(report)));
     text += element(
         "p", "class=\"soft\"",
         escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " + std::to_string(report.height) +

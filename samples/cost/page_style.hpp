@@ -25,6 +25,7 @@ figcaption { margin-top: .25rem; }
 .findings li { background: var(--card); border: 1px solid var(--rule); border-left: 5px solid var(--either); border-radius: 6px; padding: .7rem .9rem; font-size: 1.08rem; }
 .findings .keep { border-left-color: var(--keep); } .findings .spare { border-left-color: var(--spare); } .findings .trade { border-left-color: var(--trade); }
 .answer { font-size: 1.3rem; line-height: 1.35; font-weight: 600; margin: .6rem 0; }
+.half { font-size: 1.1rem; line-height: 1.4; }
 .warning { color: var(--spare); }
 .howto { padding: .3rem .9rem; margin: 1rem 0; }
 pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); border-radius: 4px; background: var(--paper); font-size: .85rem; white-space: pre-wrap; overflow-wrap: anywhere; }
