@@ -8,6 +8,7 @@
 #include "../samples/cost/commands.hpp"
 #include "../samples/cost/confirmation.hpp"
 #include "../samples/cost/figures.hpp"
+#include "../samples/cost/glossary.hpp"
 #include "../samples/cost/half_time.hpp"
 #include "../samples/cost/page.hpp"
 #include "../samples/cost/page_pictures.hpp"
@@ -391,8 +392,12 @@ TEST_CASE("where not even one sample fits half the time, the fastest that surely
           "to 0.0200; with it 12 % of the pixels look wrong.");
     CHECK_FALSE(cost::halfTime(report).fits);
     for (cost::Measurement& m : report.measurements) m.slowdown.upper = 1.2;
-    CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or surely saves any.");
+    CHECK(cost::halfTimeSentence(report) ==
+          "Nothing that was measured halves the time, or surely saves any. What looks the fastest is no Fresnel reflection: 8.00 "
+          "instead of 10.0 ms, which may be chance, with an error of 0.0300 instead of 0.0100.");
     CHECK_FALSE(cost::halfTime(report).choice);
+    for (cost::Measurement& m : report.measurements) m.slowdown.median = std::max(m.slowdown.median, 1.0);
+    CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or takes less at all.");
 }
 
 TEST_CASE("what is recommended is the fastest that keeps the quality, with the fewest settings changed") {
@@ -522,6 +527,36 @@ TEST_CASE("no two labels of a crowded plot meet, nor do labels and points") {
     }
 }
 
+TEST_CASE("a label without a leader is nearest to its own point") {
+    for (const double spread : {0.02, 0.05, 0.15}) {
+        CAPTURE(spread);
+        const cost::Box area = {46, 14, 820, 420};
+        const std::vector<cost::LabelWish> wishes = crowd(25, area, spread, 120);
+        const std::vector<cost::LabelPlace> places = cost::placeLabels(wishes, area, 11, {});
+        size_t beside = 0;
+        for (size_t i = 0; i < places.size(); ++i) {
+            if (!places[i].placed || places[i].leader) continue;
+            ++beside;
+            for (size_t k = 0; k < wishes.size(); ++k)
+                if (k != i) CHECK(cost::distance(wishes[k].mark, places[i].box) > cost::distance(wishes[i].mark, places[i].box));
+        }
+        if (spread > 0.1) CHECK(beside >= 3);
+    }
+}
+
+TEST_CASE("the most important label is beside its point, also where lines run through that") {
+    const cost::Box area = {0, 0, 400, 300};
+    const cost::LabelWish own = {{196, 146, 9, 9}, 100, 13};
+    const cost::LabelWish unnamed = {{150, 146, 9, 9}, 0, 13};
+    const std::vector<cost::Box> lines = {{100, 149, 250, 3}};
+    const std::vector<cost::LabelPlace> places = cost::placeLabels({own, unnamed}, area, 11, lines);
+    CHECK(places[0].placed);
+    CHECK_FALSE(places[0].leader);
+    CHECK(cost::distance(own.mark, places[0].box) < 8);
+    CHECK_FALSE(places[0].box.meets(lines[0]));
+    CHECK_FALSE(places[1].placed);
+}
+
 TEST_CASE("where there is room, no leader crosses a label") {
     const cost::Box area = {46, 14, 820, 420};
     const std::vector<cost::LabelWish> wishes = crowd(25, area, 0.15, 120);
@@ -586,6 +621,59 @@ TEST_CASE("every point is in both plots, inside of their boxes") {
     CHECK_FALSE(contains(html, "inf\""));
 }
 
+TEST_CASE("what is recommended has a star, and what is like the scene's own settings no label") {
+    cost::Report report = sampleReport();
+    const auto count = [](const std::string& text, const std::string& part) {
+        size_t found = 0;
+        for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+        return found;
+    };
+    std::string html = cost::page(report);
+    CHECK(count(html, "class=\"star\"") == 2);  // in either plot
+    CHECK(contains(html, "recommended: the scene's own settings"));
+    CHECK_FALSE(contains(html, "class=\"lever pale\""));
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    html = cost::page(report);
+    CHECK(count(html, "class=\"star\"") == 2);
+    CHECK(contains(html, "recommended: Schlick's Fresnel"));
+    CHECK(contains(html, "</svg>the scene's own settings"));
+    CHECK(contains(html, ">6: Schlick's Fresnel</text>"));
+    report.measurements[2] = measured({1, 1, 1}, 1.01, 0.0101, 0.01);
+    html = cost::page(report);
+    CHECK(count(html, "<g class=\"lever pale\">") == 2);
+    CHECK_FALSE(contains(html, ">2: Schlick's Fresnel</text>"));
+    CHECK(contains(html, "They are Schlick's Fresnel (2)."));
+}
+
+TEST_CASE("the glossary explains the words that occur, once each, and the first of them leads there") {
+    cost::Glossary glossary;
+    CHECK(glossary.list().empty());
+    const std::string html = glossary.linked(
+        "<h2>Bias</h2><pre>bias --spp</pre><p title=\"bias\">Bias and bias; Pareto front<a href=\"#x\">noise</a>, unbiased</p>");
+    CHECK(html ==
+          "<h2>Bias</h2><pre>bias --spp</pre><p title=\"bias\"><a class=\"term\" href=\"#word-bias\">Bias</a> and bias; "
+          "<a class=\"term\" href=\"#word-pareto\">Pareto front</a><a href=\"#x\">noise</a>, unbiased</p>");
+    CHECK(glossary.linked("bias, more samples") == "bias, more <a class=\"term\" href=\"#word-sample\">samples</a>");
+    CHECK(contains(glossary.list(), "id=\"word-bias\""));
+    CHECK(contains(glossary.list(), "id=\"word-sample\""));
+    CHECK_FALSE(contains(glossary.list(), "id=\"word-noise\""));
+}
+
+TEST_CASE("each word that the page links is explained on it") {
+    const std::string html = cost::page(sampleReport());
+    const std::string link = "class=\"term\" href=\"#";
+    size_t links = 0;
+    for (size_t at = html.find(link); at != std::string::npos; at = html.find(link, at + 1), ++links) {
+        const size_t from = at + link.size();
+        const std::string id = html.substr(from, html.find('"', from) - from);
+        CAPTURE(id);
+        CHECK(contains(html, "<dt id=\"" + id + "\">"));
+    }
+    CHECK(links > 5);
+    CHECK(contains(html, "#word-fresnel"));
+    CHECK_FALSE(contains(html, "watertight"));
+}
+
 TEST_CASE("the JSON holds every measurement with its settings by name") {
     const auto json = nlohmann::json::parse(cost::reportJson(sampleReport()));
     CHECK(json["measurements"].size() == 6);
@@ -594,5 +682,7 @@ TEST_CASE("the JSON holds every measurement with its settings by name") {
     CHECK(json["findings"].size() == 2);
     CHECK(json["recommendation"]["changes"] == false);
     CHECK(json["recommendation"]["commands"].size() == 2);
+    CHECK(json["half_time"]["fits"] == true);
+    CHECK(json["half_time"]["choice"]["settings"]["samples"] == "32");
     CHECK(json["levers"][1]["reason"] == "no medium disperses light");
 }

@@ -154,6 +154,13 @@ std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const st
     return all;
 }
 
+bool standsOut(const Measurement& m, const Measurement& own) {
+    const auto differ = [](double a, double b) { return std::abs(a - b) > kSameTime * b; };
+    const bool sameErrors = m.relMse.lower <= own.relMse.upper && own.relMse.lower <= m.relMse.upper;
+    const bool time = !covers(m.slowdown, 1) && differ(m.slowdown.median, 1);
+    return time || (!sameErrors && differ(m.error.relMse, own.error.relMse));
+}
+
 std::string sentence(const Lever& lever, const Comparison& c) {
     const std::string cheap =
         lever.plural && lever.kind != LeverKind::baked ? lever.settings[c.cheap].name : lever.settings[c.cheap].words;

@@ -31,6 +31,9 @@ struct Comparison {
 std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles,
                                       double moreSamples);
 
+/// Whether a measurement differs from `own`, of the scene's own settings, by more than chance and 2 %, in time or in error.
+bool standsOut(const Measurement& m, const Measurement& own);
+
 /// "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error." The same words for the same numbers.
 std::string sentence(const Lever& lever, const Comparison& comparison);
 

@@ -9,20 +9,41 @@
 namespace cost {
 namespace {
 
-/// Of those that surely save time and are not surely slower than the fastest, the most accurate; as many samples as the scene takes.
-std::optional<BudgetChoice> fastest(const Report& report) {
+/// With as many samples as the scene's own settings.
+std::vector<const Measurement*> atOwnSamples(const Report& report) {
     const size_t samples = findLever(report.levers, LeverKind::samples);
-    std::vector<const Measurement*> faster;
+    std::vector<const Measurement*> found;
     for (const Measurement& m : report.measurements)
-        if (m.slowdown.upper < 1 && m.configuration[samples] == report.levers[samples].initial) faster.push_back(&m);
-    if (faster.empty()) return std::nullopt;
+        if (m.configuration[samples] == report.levers[samples].initial) found.push_back(&m);
+    return found;
+}
+
+const Measurement& quickest(const std::vector<const Measurement*>& measurements) {
     const auto quicker = [](const Measurement* a, const Measurement* b) { return a->slowdown.median < b->slowdown.median; };
-    const Spread first = (*std::min_element(faster.begin(), faster.end(), quicker))->slowdown;
-    const auto slow = [&](const Measurement* m) { return surelySlower(m->slowdown, first); };
-    faster.erase(std::remove_if(faster.begin(), faster.end(), slow), faster.end());
+    return **std::min_element(measurements.begin(), measurements.end(), quicker);
+}
+
+/// Of those that surely save time and are not surely slower than the fastest, the most accurate.
+std::optional<BudgetChoice> surelyFastest(const Report& report) {
+    std::vector<const Measurement*> faster = atOwnSamples(report);
+    const auto drop = [&](const auto& slow) { faster.erase(std::remove_if(faster.begin(), faster.end(), slow), faster.end()); };
+    drop([](const Measurement* m) { return m->slowdown.upper >= 1; });
+    if (faster.empty()) return std::nullopt;
+    const Spread first = quickest(faster).slowdown;
+    drop([&](const Measurement* m) { return surelySlower(m->slowdown, first); });
     const auto better = [](const Measurement* a, const Measurement* b) { return a->error.relMse < b->error.relMse; };
-    const Measurement& m = **std::min_element(faster.begin(), faster.end(), better);
-    return expected(report.levers, report.measurements, m, report.sceneSamples);
+    return expected(report.levers, report.measurements, **std::min_element(faster.begin(), faster.end(), better),
+                    report.sceneSamples);
+}
+
+std::string noneFasterSentence(const Report& report) {
+    const Measurement& own = report.measurements.front();
+    const Measurement& m = quickest(atOwnSamples(report));
+    if (m.slowdown.median >= 1) return "Nothing that was measured halves the time, or takes less at all.";
+    return "Nothing that was measured halves the time, or surely saves any. What looks the fastest is " +
+           changesInWords(report, {m.configuration, report.sceneSamples, 0, 0}) + ": " + number(m.ms.median) + " instead of " +
+           number(own.ms.median) + " ms, which may be chance, with an error of " + number(m.error.relMse) + " instead of " +
+           number(own.error.relMse) + ".";
 }
 
 std::string errorChange(const HalfTime& half) {
@@ -40,7 +61,7 @@ HalfTime halfTime(const Report& report) {
     half.own = expected(report.levers, report.measurements, report.measurements.front(), report.sceneSamples);
     half.choice = chooseWithin(half.own.ms / 2, report.levers, report.measurements, 1);
     half.fits = half.choice.has_value();
-    if (!half.fits) half.choice = fastest(report);
+    if (!half.fits) half.choice = surelyFastest(report);
     const BudgetChoice advice = recommendedChoice(report);
     half.advised = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
     for (const Measurement& m : report.measurements)
@@ -51,7 +72,7 @@ HalfTime halfTime(const Report& report) {
 
 std::string halfTimeSentence(const Report& report) {
     const HalfTime half = halfTime(report);
-    if (!half.choice) return "Nothing that was measured halves the time, or surely saves any.";
+    if (!half.choice) return noneFasterSentence(report);
     if (half.advised) return "This halves the time already.";
     std::string text = half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. The fastest is ";
     text += changesInWords(report, *half.choice) + ": " + percent(1 - half.choice->ms / half.own.ms) + " less time, and " +

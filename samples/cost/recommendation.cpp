@@ -97,7 +97,7 @@ std::string recommendationRule(const Report& report) {
                        percent(kMoreError) + " larger than that of the scene's own settings";
     rule += report.reference.random ? ", as expected at the scene's " + std::to_string(report.sceneSamples) + " samples a pixel."
                                     : ", at the same samples as well, with at most " + percent(kMoreWrongPixels) +
-                                          " more of the pixels visibly wrong there.";
+                                          " more of the pixels looking wrong there.";
     rule += " Of those that are slower than it by less than " + percent(kSameTime) +
             ", or by no more than the repeats spread, the one that changes the fewest settings";
     if (report.confirmed) rule += "; timed once more, since the fastest of many may be so by chance";
