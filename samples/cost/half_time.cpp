@@ -1,6 +1,7 @@
 #include "half_time.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "commands.hpp"
 #include "figures.hpp"
@@ -36,22 +37,24 @@ std::optional<BudgetChoice> surelyFastest(const Report& report) {
                     report.sceneSamples);
 }
 
-std::string noneFasterSentence(const Report& report) {
-    const Measurement& own = report.measurements.front();
-    const Measurement& m = quickest(atOwnSamples(report));
-    if (m.slowdown.median >= 1) return "Nothing that was measured halves the time, or takes less at all.";
-    return "Nothing that was measured halves the time, or surely saves any. What looks the fastest is " +
-           changesInWords(report, {m.configuration, report.sceneSamples, 0, 0}) + ": " + number(m.ms.median) + " instead of " +
-           number(own.ms.median) + " ms, which may be chance, with an error of " + number(m.error.relMse) + " instead of " +
-           number(own.error.relMse) + ".";
+std::string errorChange(double from, double to) {
+    if (number(from) == number(to)) return "the error stays at " + number(from);
+    return std::string("the error ") + (to > from ? "rises" : "falls") + " from " + number(from) + " to " + number(to);
 }
 
-std::string errorChange(const HalfTime& half) {
-    const std::string own = number(half.own.relMse);
-    const std::string chosen = number(half.choice->relMse);
-    if (own == chosen) return "the error stays at " + own;
-    return std::string("the error ") + (half.choice->relMse > half.own.relMse ? "rises" : "falls") + " from " + own + " to " +
-           chosen;
+/// A setting more accurate than the scene's own looks fast by chance alone.
+std::string noneFasterSentence(const Report& report) {
+    const Measurement& own = report.measurements.front();
+    std::vector<const Measurement*> cheaper = atOwnSamples(report);
+    const auto finer = [&](const Measurement* m) {
+        return !std::equal(m->configuration.begin(), m->configuration.end(), own.configuration.begin(), std::less_equal<>());
+    };
+    cheaper.erase(std::remove_if(cheaper.begin(), cheaper.end(), finer), cheaper.end());
+    const Measurement& m = quickest(cheaper);
+    if (m.slowdown.median >= 1) return "Nothing that was measured halves the time, or takes less at all.";
+    return "Nothing that was measured halves the time, or surely saves any. What looks the fastest is " +
+           changesInWords(report, {m.configuration, report.sceneSamples, 0, 0}) + ": " + percent(1 - m.slowdown.median) +
+           " less time, which may be chance, and " + errorChange(own.error.relMse, m.error.relMse) + ".";
 }
 
 }  // namespace
@@ -76,7 +79,7 @@ std::string halfTimeSentence(const Report& report) {
     if (half.advised) return "This halves the time already.";
     std::string text = half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. The fastest is ";
     text += changesInWords(report, *half.choice) + ": " + percent(1 - half.choice->ms / half.own.ms) + " less time, and " +
-            errorChange(half);
+            errorChange(half.own.relMse, half.choice->relMse);
     if (report.samples() < report.sceneSamples) text += ", as expected at the scene's own samples";
     if (half.wrongPixels > kNoticeablePixels) text += "; with it " + percent(half.wrongPixels) + " of the pixels look wrong";
     return text + ".";

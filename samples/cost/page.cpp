@@ -79,7 +79,7 @@ std::string findingsSection(const Report& report) {
         "<b>Look wrong</b>: off by more than " +
         std::to_string(kUnseenSteps) +
         " of a screen's 255 steps. <b>Keep</b>: worth its time. <b>Spare</b>: do without. More under "
-        "<a href=\"#method\">how this was measured</a>.";
+        "<a href=\"#method\">how this was measured</a>; underlined <a href=\"#words\">words</a> are explained there too.";
     return element("ul", "class=\"findings\"", items) + element("p", "class=\"soft\"", words);
 }
 
@@ -221,13 +221,13 @@ std::string tableSection(const Report& report) {
            element("p", "class=\"soft narrow\"", "The table goes on to the right: push it aside.") +
            element("div", "class=\"scroll\" tabindex=\"0\"",
                    element("table", "", element("thead", "", element("tr", "", headings)) + element("tbody", "", rows))) +
-           element(
-               "p", "class=\"soft\"",
-               "Each row is named by what differs from the scene's own settings. <b>Middle half</b>: the middle half of the "
-               "repeats "
-               "took from so many ms to so many. <b>Green</b>: on the Pareto front, "
-               "nothing measured is both faster and more accurate. <b>Pipelines</b> and <b>kernels</b>: what the driver took to "
-               "translate the programs of the device, once, and how large these are.");
+           element("p", "class=\"soft\"",
+                   "Each row is named by what differs from the scene's own settings. <b>Middle half</b>: the middle half of the "
+                   "repeats "
+                   "took from so many ms to so many. <b>Green</b>: on the Pareto front, "
+                   "nothing measured is surely both faster and more accurate. <b>Pipelines</b> and <b>kernels</b>: what the "
+                   "driver took to "
+                   "translate the programs of the device, once, and how large these are.");
 }
 
 /// What a picture is held against: Whitted's show what a lever does at the same samples.
@@ -349,7 +349,7 @@ std::string page(const Report& report) {
     const std::string found = glossary.linked(head(report) + plotSection(report) + leversSection(report) + tableSection(report) +
                                               picturesSection(report) + hardCasesSection(report));
     const std::string method = glossary.linked(methodSection(report));
-    const std::string body = found + element("h2", "", "Words") + glossary.list() + method + foot(report);
+    const std::string body = found + element("h2", "id=\"words\"", "Words") + glossary.list() + method + foot(report);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
            "content=\"width=device-width, initial-scale=1\">\n" +
            element("title", "", "What accuracy costs: " + escaped(report.scene)) + element("style", "", kPageStyle) +
