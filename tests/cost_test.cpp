@@ -225,6 +225,17 @@ TEST_CASE("nothing beats a point of the front, and something beats each other po
     }
 }
 
+TEST_CASE("nothing is on the front of the measurements by chance") {
+    std::vector<cost::Measurement> all = {measured({2, 1, 1}, 1, 0.01, 0), measured({1, 1, 1}, 0.8, 0.02, 0),
+                                          measured({2, 1, 2}, 2, 0.005, 0), measured({0, 1, 1}, 0.99, 0.0101, 0)};
+    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{1, 0, 2});
+    all[1].slowdown.upper = 1.1;  // as slow as the scene's own settings
+    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{0, 2});
+    all[1].error.relMse = 0.009;
+    all[1].relMse = {0.009, 0.009, 0.009};
+    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{1, 2});
+}
+
 TEST_CASE("sentences give the cost of the accurate setting and what the cheap one does") {
     const cost::Report report = sampleReport();
     REQUIRE(report.comparisons.size() == 4);

@@ -138,21 +138,6 @@ void confirm(Measurer& measurer, const StudyOptions& options, const Progress& pr
         again, options.repeats, [&] { return options.seconds - progress.seconds(); }, report);
 }
 
-/// Of the scene's own settings and what surely differs from them: what is as good by chance beats nothing.
-std::vector<size_t> frontOf(const std::vector<Measurement>& measurements) {
-    std::vector<size_t> numbers;
-    std::vector<Tradeoff> points;
-    for (size_t i = 0; i < measurements.size(); ++i) {
-        const Measurement& m = measurements[i];
-        if (i > 0 && !standsOut(m, measurements.front())) continue;
-        numbers.push_back(i);
-        points.push_back({m.ms.median, m.error.relMse});
-    }
-    std::vector<size_t> front = paretoFront(points);
-    for (size_t& i : front) i = numbers[i];
-    return front;
-}
-
 /// Chooses, and measures what was chosen.
 void spendBudget(Scenes& scenes, Measurer& measurer, const StudyOptions& options, Report& report) {
     report.budgetMs = options.budgetMs;
@@ -203,7 +188,7 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.reference = measurer.reference();
     confirm(measurer, options, progress, report);
 
-    report.front = frontOf(report.measurements);
+    report.front = surelyOnFront(report.measurements);
     const std::vector<Measurement> singles(report.measurements.begin(),
                                            report.measurements.begin() + static_cast<ptrdiff_t>(report.singles));
     report.comparisons = compareLevers(report.levers, singles, static_cast<double>(report.sceneSamples) / samples);
