@@ -373,6 +373,16 @@ TEST_CASE(
     CHECK(choice()->samples == 16);
 }
 
+TEST_CASE("a setting that misses bright sparks is not expected to have less noise for it") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 2}, 1.9, 0.004, 0.13));  // 8 samples
+    report.measurements.back().bias = {0.0038, 0};
+    const auto error = [&] { return cost::expected(report.levers, report.measurements, report.measurements.back(), 4).relMse; };
+    CHECK(error() == doctest::Approx(0.0138));              // the noise of exact Fresnel at 4 samples, and the bias
+    report.measurements.front().bias.standardError = 1e-5;  // of random pictures settings do differ in their noise
+    CHECK(error() == doctest::Approx(0.0042));
+}
+
 TEST_CASE("half the time is bought with the least error, or it is said that nothing measured halves it") {
     cost::Report report = sampleReport();
     CHECK(cost::halfTimeSentence(report) ==
@@ -381,8 +391,11 @@ TEST_CASE("half the time is bought with the least error, or it is said that noth
     CHECK(cost::commandsFor(report, *cost::halfTime(report).choice).back() ==
           "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32");
     report.sceneSamples = 4;
+    report.measurements[3].sameSamples.wrongPixels = 0.05;  // at 2 samples, which are no lever's doing
     CHECK(contains(cost::halfTimeSentence(report),
                    "take 2 samples a pixel: 50 % less time, and the error rises from 0.0100 to 0.0200."));
+    CHECK(cost::halfTime(report).wrongPixels == 0);
+    report.measurements.front().bias.standardError = 1e-5;
     report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
     CHECK(cost::recommended(report) == 6);
     CHECK(cost::halfTime(report).advised);

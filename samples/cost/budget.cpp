@@ -50,8 +50,13 @@ size_t changes(const std::vector<Lever>& levers, const BudgetChoice& choice) {
 BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
                       uint32_t samples) {
     const Configuration own = initialConfiguration(levers);
-    const double fewer = static_cast<double>(samplesOf(levers, m.configuration)) / samples;
-    const double noise = noiseOf(m, own) * std::pow(fewer, falloff(levers, measurements));
+    const double slope = falloff(levers, measurements);
+    const auto noiseAt = [&](const Measurement& of) {
+        return noiseOf(of, own) * std::pow(static_cast<double>(samplesOf(levers, of.configuration)) / samples, slope);
+    };
+    // Where pictures are not random, all have the same noise, and what shows less of it misses bright sparks.
+    const bool random = measurements.front().bias.standardError > 0;
+    const double noise = random ? noiseAt(m) : std::max(noiseAt(m), noiseAt(measurements.front()));
     const double ms = msPerSample(levers, m, measurements.front()) * samples;
     return {m.configuration, samples, ms, systematicError(m, own) + noise};
 }

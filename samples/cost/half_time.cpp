@@ -37,6 +37,16 @@ std::optional<BudgetChoice> surelyFastest(const Report& report) {
                     report.sceneSamples);
 }
 
+/// By the levers of a measured configuration; not by its samples.
+double moreWrongPixels(const Report& report, const Configuration& configuration) {
+    const size_t samples = findLever(report.levers, LeverKind::samples);
+    const Measurement& own = report.measurements.front();
+    if (with(configuration, samples, own.configuration[samples]) == own.configuration) return 0;
+    const auto measured = [&](const Measurement& m) { return m.configuration == configuration; };
+    const auto found = std::find_if(report.measurements.begin(), report.measurements.end(), measured);
+    return found->sameSamples.wrongPixels - own.sameSamples.wrongPixels;
+}
+
 std::string errorChange(double from, double to) {
     if (number(from) == number(to)) return "the error stays at " + number(from);
     return std::string("the error ") + (to > from ? "rises" : "falls") + " from " + number(from) + " to " + number(to);
@@ -67,9 +77,7 @@ HalfTime halfTime(const Report& report) {
     if (!half.fits) half.choice = surelyFastest(report);
     const BudgetChoice advice = recommendedChoice(report);
     half.advised = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
-    for (const Measurement& m : report.measurements)
-        if (half.choice && m.configuration == half.choice->configuration)
-            half.wrongPixels = m.sameSamples.wrongPixels - report.measurements.front().sameSamples.wrongPixels;
+    if (half.choice) half.wrongPixels = moreWrongPixels(report, half.choice->configuration);
     return half;
 }
 
