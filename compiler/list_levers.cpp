@@ -34,25 +34,19 @@ void print(const Applicability& found) {
     std::cout << (found.applies ? "  matters here: " : "  does not matter here: ") << found.reason << "\n";
 }
 
-/// What decides which levers matter to a scene, before any lever or option.
-struct SceneFacts {
-    EffectSet effects;
-    std::vector<Integrator> integrators;
-};
+}  // namespace
 
-SceneFacts factsOf(const std::string& sceneFile) {
-    Diagnostics diagnostics;
+SceneFacts factsOf(const std::string& sceneFile, Diagnostics& diagnostics) {
     const Scene scene = loadScene(sceneFile, diagnostics);
     const Geometry geometry = flatten(scene, diagnostics);
     const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, 0);
     return {analyseEffects(scene, geometry, volumes, false, scene.render.tracesPaths()), scene.render.integrators};
 }
 
-}  // namespace
-
 int listLevers(const LeversOptions& options) {
+    Diagnostics diagnostics;
     std::optional<SceneFacts> facts;
-    if (!options.scene.empty()) facts = factsOf(options.scene);
+    if (!options.scene.empty()) facts = factsOf(options.scene, diagnostics);
     nlohmann::ordered_json json;
     for (const Lever& lever : levers()) {
         nlohmann::ordered_json entry = describe(lever);

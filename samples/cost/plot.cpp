@@ -188,8 +188,9 @@ private:
         const auto add = [&](double x1, double y1, double x2, double y2) {
             boxes.push_back({std::min(x1, x2) - 1, std::min(y1, y2) - 1, std::abs(x2 - x1) + 2, std::abs(y2 - y1) + 2});
         };
+        constexpr double kBesideBar = 6;  // a label at the end of a bar seems to belong to it
         for (const PlotPoint& p : plot_.points)
-            if (!p.pale) add(x_.at(p.timeLower), yOf(p), x_.at(p.timeUpper), yOf(p));
+            if (!p.pale) add(x_.at(p.timeLower) - kBesideBar, yOf(p), x_.at(p.timeUpper) + kBesideBar, yOf(p));
         for (size_t i = 1; i < plot_.front.size(); ++i) {
             const PlotPoint& before = plot_.points[plot_.front[i - 1]];
             const PlotPoint& after = plot_.points[plot_.front[i]];
