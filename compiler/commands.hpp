@@ -24,8 +24,12 @@ struct BakeOptions {
 
 int bake(const BakeOptions& options);
 
-/// What the scene of a file calls for, before any lever or option.
-EffectSet effectsOf(const std::string& sceneFile, Diagnostics& diagnostics);
+/// What the scene of a file calls for, before any lever or option, and what draws it.
+struct SceneFacts {
+    EffectSet effects;
+    std::vector<Integrator> integrators;
+};
+SceneFacts factsOf(const std::string& sceneFile, Diagnostics& diagnostics);
 
 struct LeversOptions {
     std::string scene;  // "": none

@@ -148,7 +148,6 @@ const EffectInfo& effectInfo(Effect effect) {
 
 EffectSet analyseEffects(const Scene& scene, const Geometry& geometry, const Volumes& volumes, bool floatNodes, bool paths) {
     EffectSet effects;
-    effects.paths = paths;
     for (size_t i = 0; i < kEffectCount; ++i) effects.choices[i].reason = kEffects[i].absent;
     std::set<uint32_t> seen;
     for (const Primitive& primitive : geometry.primitives) {

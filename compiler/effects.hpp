@@ -66,7 +66,6 @@ struct EffectChoice {
 struct EffectSet {
     std::array<EffectChoice, kEffectCount> choices;
     uint32_t volumeCapacity = 1;  // entries of a ray's list of volumes, where nesting is in
-    bool paths = false;           // for the path tracers too
     bool profile = false;         // traversal counts what it does: of kernels that minirt-bench compiles alone
     LeverSettings levers;         // that are not at their default: the kernels go by them (levers.hpp)
     bool has(Effect effect) const { return choices[static_cast<size_t>(effect)].included; }

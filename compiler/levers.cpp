@@ -207,16 +207,20 @@ std::vector<std::string> definesOf(const LeverSettings& settings) {
     return defines;
 }
 
-Applicability applies(const Lever& lever, const EffectSet& effects) {
+Applicability applies(const Lever& lever, const EffectSet& effects, const std::vector<Integrator>& integrators) {
+    const auto isWhitted = [](Integrator one) { return one == Integrator::whitted; };
+    const bool whitted = std::any_of(integrators.begin(), integrators.end(), isWhitted);
+    const bool paths = !std::all_of(integrators.begin(), integrators.end(), isWhitted);
+    const bool ofWhitted = lever.name == "cutoff" || lever.name == "weak_rays";
+    if (ofWhitted && !whitted) return {false, "nothing is drawn by Whitted's tracer"};
+    if (lever.name == "light_sampling" && !paths) return {false, "nothing traces paths"};
     if (lever.name == "fresnel") return anyOf(effects, {Effect::fresnel, Effect::roughTransmission});
     if (lever.name == "normals") return anyOf(effects, {Effect::smoothNormals});
     if (lever.name == "nesting") return anyOf(effects, {Effect::nesting});
     if (lever.name == "absorption") return anyOf(effects, {Effect::absorption, Effect::inscatter});
     if (lever.name == "dispersion") return anyOf(effects, {Effect::dispersion});
-    const bool ofRaysThatGoOn = lever.name == "cutoff" || lever.name == "weak_rays" || (lever.name == "depth" && !effects.paths);
-    if (ofRaysThatGoOn) return anyOf(effects, {Effect::reflection, Effect::refraction});
-    if (lever.name == "light_sampling" && effects.paths) return anyOf(effects, {Effect::areaLights, Effect::environmentLight});
-    if (lever.name == "light_sampling") return {false, "nothing traces paths"};
+    if (ofWhitted || (lever.name == "depth" && !paths)) return anyOf(effects, {Effect::reflection, Effect::refraction});
+    if (lever.name == "light_sampling") return anyOf(effects, {Effect::areaLights, Effect::environmentLight});
     return {true, "every scene has rays that meet surfaces"};
 }
 

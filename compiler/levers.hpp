@@ -55,11 +55,11 @@ void applyToEffects(const LeverSettings& asked, EffectSet& effects);
 /// The names that the kernels are compiled with.
 std::vector<std::string> definesOf(const LeverSettings& settings);
 
-/// Whether a lever can change the picture of a scene that calls for `effects`, and why.
+/// Whether a lever can change what any of `integrators` draws of a scene that calls for `effects`, and why.
 struct Applicability {
     bool applies = false;
     std::string reason;
 };
-Applicability applies(const Lever& lever, const EffectSet& effects);
+Applicability applies(const Lever& lever, const EffectSet& effects, const std::vector<Integrator>& integrators);
 
 }  // namespace minirtc

@@ -36,23 +36,23 @@ void print(const Applicability& found) {
 
 }  // namespace
 
-EffectSet effectsOf(const std::string& sceneFile, Diagnostics& diagnostics) {
+SceneFacts factsOf(const std::string& sceneFile, Diagnostics& diagnostics) {
     const Scene scene = loadScene(sceneFile, diagnostics);
     const Geometry geometry = flatten(scene, diagnostics);
     const Volumes volumes = analyseVolumes(scene, geometry, diagnostics, 0);
-    return analyseEffects(scene, geometry, volumes, false, scene.render.tracesPaths());
+    return {analyseEffects(scene, geometry, volumes, false, scene.render.tracesPaths()), scene.render.integrators};
 }
 
 int listLevers(const LeversOptions& options) {
     Diagnostics diagnostics;
-    std::optional<EffectSet> effects;
-    if (!options.scene.empty()) effects = effectsOf(options.scene, diagnostics);
+    std::optional<SceneFacts> facts;
+    if (!options.scene.empty()) facts = factsOf(options.scene, diagnostics);
     nlohmann::ordered_json json;
     for (const Lever& lever : levers()) {
         nlohmann::ordered_json entry = describe(lever);
         if (!options.json) print(lever);
-        if (effects) {
-            const Applicability found = applies(lever, *effects);
+        if (facts) {
+            const Applicability found = applies(lever, facts->effects, facts->integrators);
             entry["applies"] = found.applies;
             entry["reason"] = found.reason;
             if (!options.json) print(found);

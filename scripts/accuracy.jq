@@ -1,14 +1,8 @@
 # docs/accuracy.md out of the JSON files of minirt-cost, of any number of devices; scripts/accuracy runs it. A device is a folder of files.
 
-def rounded(digits): . * pow(10; digits) | round / pow(10; digits);
-def percent: . * 100 | if fabs < 10 then rounded(1) else round end | (if . == 0 then 0 else . end | tostring) + " %";
-# "llvmpipe (LLVM 15.0.6, 256 bits)" is lavapipe to people.
-def short_name: if test("llvmpipe") then "lavapipe" else sub(" *\\(.*"; "") | sub("^NVIDIA "; "") end;
+include "report";
+
 def spread: "\(.median | rounded(2)) (\(.lower_quartile | rounded(2))–\(.upper_quartile | rounded(2)))";
-def row: "| " + join(" | ") + " |";
-def table(head): (head | row), (head | map("---") | row), .[];
-# In the order of the first appearance.
-def distinct: reduce .[] as $x ([]; if index([$x]) then . else . + [$x] end);
 
 def lever_names: ["samples", "integrator", "depth", "cutoff", "light_sampling", "intersection", "ray_offset", "fresnel", "normals", "nesting",
     "absorption", "dispersion", "precision", "weak_rays"];
@@ -25,7 +19,9 @@ stayed and noise has fallen. **Time** is the accurate setting's over the cheap o
 measured in rounds in which all settings take turns; the drift of whole rounds is taken out. A pixel is **wrong** when its 8-bit sRGB value is off by more
 than 2 steps; given where pictures have no noise, by how many more the cheap setting gets wrong at the same samples.
 `keep`: costs no time, or the error falls by a larger factor than the time grows; `trade`: more accurate, but the time grows by the larger factor; `spare`: costs time for
-nothing; `either`: no difference; `·`: it can change nothing there.";
+nothing; `either`: no difference; `·`: it can change nothing there.
+
+What it gains that kernels hold only the effects of their scene is [at the end](#only-the-effects-that-a-scene-calls-for).";
 
 # The leading verdicts of each scene.
 def glance:
@@ -69,10 +65,10 @@ def where_levers_matter:
     | table(["lever", "matters the most in", "loses nothing in"]);
 
 def scene_section:
-    .report as $r | "\n### `\(.scene)`, \(.name)\n\n\($r.width) × \($r.height), \($r.samples) of \($r.scene_samples) samples a pixel; its own settings take \($r.measurements[0].ms.median | rounded(2)) ms with relMSE \($r.measurements[0].error.relmse | rounded(5)); the reference has \($r.reference.samples) samples and relMSE \($r.reference.relmse | rounded(6)) of its own.\n",
+    .report as $r | "\n### `\(.scene)`, \(.name)\n\n\($r.width) × \($r.height), \($r.samples) of \($r.scene_samples) samples a pixel; its own settings take \($r.measurements[0].ms.median | rounded(2)) ms with relMSE \($r.measurements[0].error.relmse | significant(3)); the reference has \($r.reference.samples) samples and relMSE \($r.reference.relmse | significant(2)) of its own.\n",
     ($r.findings[] | "- " + .), ($r.levers[] | select(.applies | not) | "- \(.name) is left alone: \(.reason).");
 
-[inputs | {scene: (input_filename | sub(".*/"; "") | sub("\\.json$"; "")), name: (.device | short_name), report: .}]
+[inputs | {scene: (input_filename | scene_of), name: (.device | short_name), report: .}]
 | ([.[].name] | distinct) as $names
 | . as $all
 | introduction($names | map(. as $name | first($all[] | select(.name == $name)) | {name, device: .report.device, driver: .report.driver, date: .report.date})),

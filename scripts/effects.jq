@@ -2,8 +2,6 @@
 
 include "report";
 
-# 3 significant digits.
-def short: if . == 0 then 0 else (log10 | floor) as $e | rounded(2 - $e) end;
 def kilobytes: . / 1000 | round;
 def pair(get): "\(.pruned | get) of \(.all_effects | get)";
 def between: "\(.median | rounded(2)) (\(.lower | rounded(2))–\(.upper | rounded(2)))";
@@ -11,7 +9,7 @@ def told: .pruned.registers != null;
 
 def device_table: (any(.[]; .report | told)) as $told
     | map(.scene as $scene | .report | ["`\($scene)` \(.integrator)", pair(.spirv_bytes | kilobytes), pair(.first_dispatch_ms | round),
-        pair(.ms_per_sample.median | short), (.speedup | between)]
+        pair(.ms_per_sample.median | significant(3)), (.speedup | between)]
         + (if $told then [pair(.registers // "·"), pair(.stack_bytes // "·")] else [] end) | row)
     | table(["scene, integrator", "SPIR-V, kB", "first dispatch, ms", "ms a sample", "times faster"]
         + (if $told then ["registers", "stack, bytes"] else [] end));
@@ -19,7 +17,7 @@ def device_table: (any(.[]; .report | told)) as $told
 def device_section: .[0] as $first
     | "\n\($first.name), \($first.report.width) × \($first.report.height), medians of \($first.rounds):\n", device_table;
 
-[inputs | . as $file | {scene: (input_filename | scene_of), name: (.device | short_name), rounds, report: .effects[]}]
+[inputs | {scene: (input_filename | scene_of), name: (.device | short_name), rounds, report: .effects[]}]
 | if length == 0 then empty else
     "\n## Only the effects that a scene calls for\n\nKernels as `minirtc` bakes them, beside kernels with every effect (`--all-effects`) that draw the same pictures by turns, a process a scene (`minirt-bench --effects`): what the scene calls for *of* what all effects take. The first dispatch is with nothing cached, creation of the pipelines included; how many times faster: the median and the middle half of the rounds. Registers and stack are given where the driver tells (VK_KHR_pipeline_executable_properties).",
     (. as $all | [.[].name] | distinct[] | . as $name | [$all[] | select(.name == $name)] | device_section)

@@ -5,6 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "../samples/cost/commands.hpp"
+#include "../samples/cost/confirmation.hpp"
+#include "../samples/cost/figures.hpp"
+#include "../samples/cost/glossary.hpp"
+#include "../samples/cost/half_time.hpp"
 #include "../samples/cost/page.hpp"
 #include "../samples/cost/page_pictures.hpp"
 #include "../samples/cost/pareto.hpp"
@@ -220,6 +225,17 @@ TEST_CASE("nothing beats a point of the front, and something beats each other po
     }
 }
 
+TEST_CASE("nothing is on the front of the measurements by chance") {
+    std::vector<cost::Measurement> all = {measured({2, 1, 1}, 1, 0.01, 0), measured({1, 1, 1}, 0.8, 0.02, 0),
+                                          measured({2, 1, 2}, 2, 0.005, 0), measured({0, 1, 1}, 0.99, 0.0101, 0)};
+    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{1, 0, 2});
+    all[1].slowdown.upper = 1.1;  // as slow as the scene's own settings
+    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{0, 2});
+    all[1].error.relMse = 0.009;
+    all[1].relMse = {0.009, 0.009, 0.009};
+    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{1, 2});
+}
+
 TEST_CASE("sentences give the cost of the accurate setting and what the cheap one does") {
     const cost::Report report = sampleReport();
     REQUIRE(report.comparisons.size() == 4);
@@ -284,10 +300,26 @@ TEST_CASE("a bias counts as it will at the scene's own samples, where noise has 
     CHECK(many.removed == doctest::Approx(1 - 0.00012 / 0.00406));
 }
 
-TEST_CASE("percentages and numbers are as short as they may be") {
-    CHECK(cost::percent(0.021) == "2 %");
+TEST_CASE("percentages have two significant digits at most, and none but 0 and 1 are written as if they were these") {
+    CHECK(cost::percent(0.021) == "2.1 %");
+    CHECK(cost::percent(0.02) == "2 %");
     CHECK(cost::percent(0.004) == "0.4 %");
+    CHECK(cost::percent(-0.0314) == "-3.1 %");
+    CHECK(cost::percent(0.09949) == "9.9 %");
+    CHECK(cost::percent(0.0996) == "10 %");
+    CHECK(cost::percent(0.12345) == "12 %");
+    CHECK(cost::percent(1.5) == "150 %");
+    CHECK(cost::percent(0) == "0 %");
+    CHECK(cost::percent(0.000123) == "0.012 %");
+    CHECK(cost::percent(1e-5) == "under 0.01 %");
+    CHECK(cost::percent(0.9904) == "99 %");
     CHECK(cost::percent(0.996) == "99.6 %");
+    CHECK(cost::percent(0.9997) == "99.97 %");
+    CHECK(cost::percent(0.99999) == "over 99.99 %");
+    CHECK(cost::percent(1) == "100 %");
+}
+
+TEST_CASE("numbers have three significant digits") {
     CHECK(cost::number(0.00123) == "0.00123");
     CHECK(cost::number(1234) == "1234");
     CHECK(cost::number(0) == "0");
@@ -327,11 +359,88 @@ TEST_CASE("a budget buys the least error that fits, and says what it gives up") 
     CHECK(cost::fastestMs(report.levers, report.measurements, 2) == doctest::Approx(2.5));
 }
 
+TEST_CASE(
+    "of budgets that buy about the same error, the one with the fewest changes is taken, and no time that is less by chance") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.97, 0.01, 0.01));
+    const auto choice = [&] { return cost::chooseWithin(40.5, report.levers, report.measurements, 1); };
+    REQUIRE(choice());
+    CHECK(choice()->configuration[0] == 2);  // 16 samples; Schlick's would be 16 too, with as much error
+    report.measurements.back() = measured({1, 1, 1}, 0.6, 0.01, 0.01);
+    CHECK(choice()->configuration[0] == 1);
+    report.measurements.back().slowdown = {0.6, 0.5, 1.1};
+    CHECK(choice()->configuration[0] == 2);
+    CHECK(choice()->samples == 16);
+}
+
+TEST_CASE("a setting that misses bright sparks is not expected to have less noise for it") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 2}, 1.9, 0.004, 0.13));  // 8 samples
+    report.measurements.back().bias = {0.0038, 0};
+    const auto error = [&] { return cost::expected(report.levers, report.measurements, report.measurements.back(), 4).relMse; };
+    CHECK(error() == doctest::Approx(0.0138));              // the noise of exact Fresnel at 4 samples, and the bias
+    report.measurements.front().bias.standardError = 1e-5;  // of random pictures settings do differ in their noise
+    CHECK(error() == doctest::Approx(0.0042));
+}
+
+TEST_CASE("half the time is bought with the least error, or it is said that nothing measured halves it") {
+    cost::Report report = sampleReport();
+    CHECK(cost::halfTimeSentence(report) ==
+          "To halve the time, take 32 samples a pixel: 50 % less time, and the error rises from 0.000625 to 0.00125, as expected "
+          "at the scene's own samples.");
+    CHECK(cost::commandsFor(report, *cost::halfTime(report).choice).back() ==
+          "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32");
+    report.sceneSamples = 4;
+    report.measurements[3].sameSamples.wrongPixels = 0.05;  // at 2 samples, which are no lever's doing
+    CHECK(contains(cost::halfTimeSentence(report),
+                   "take 2 samples a pixel: 50 % less time, and the error rises from 0.0100 to 0.0200."));
+    CHECK(cost::halfTime(report).wrongPixels == 0);
+    report.measurements.front().bias.standardError = 1e-5;
+    report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
+    CHECK(cost::recommended(report) == 6);
+    CHECK(cost::halfTime(report).advised);
+    CHECK(cost::halfTimeSentence(report) == "This halves the time already.");
+}
+
+TEST_CASE("where not even one sample fits half the time, the fastest that surely saves some is named") {
+    cost::Report report = sampleReport();
+    report.levers[2].settings = {{"1", "1 sample", 1}, {"2", "2 samples", 2}};
+    report.levers[2].initial = 0;
+    report.sceneSamples = 1;
+    report.measurements = {measured({2, 1, 0}, 1, 0.01, 0.01), measured({0, 1, 0}, 0.8, 0.03, 0.2),
+                           measured({1, 1, 0}, 0.81, 0.02, 0.13), measured({2, 1, 1}, 2, 0.005, 0.01)};
+    report.measurements[2].sameSamples.relMse = 0;
+    CHECK(cost::halfTimeSentence(report) ==
+          "Nothing that was measured halves the time. The fastest is Schlick's Fresnel: 19 % less time, and the error rises from "
+          "0.0100 "
+          "to 0.0200; with it 12 % of the pixels look wrong.");
+    CHECK_FALSE(cost::halfTime(report).fits);
+    for (cost::Measurement& m : report.measurements) m.slowdown.upper = 1.2;
+    CHECK(cost::halfTimeSentence(report) ==
+          "Nothing that was measured halves the time, or surely saves any. What looks the fastest is no Fresnel reflection: 20 % "
+          "less time, which may be chance, and the error rises from 0.0100 to 0.0300.");
+    CHECK_FALSE(cost::halfTime(report).choice);
+    for (cost::Measurement& m : report.measurements) m.slowdown.median = std::max(m.slowdown.median, 1.0);
+    CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or takes less at all.");
+}
+
+TEST_CASE("a setting more accurate than the scene's own is never what looks the fastest") {
+    cost::Report report = sampleReport();
+    report.levers[0].initial = 1;
+    report.levers[2].settings = {{"1", "1 sample", 1}};
+    report.levers[2].initial = 0;
+    report.sceneSamples = 1;
+    report.measurements = {measured({1, 1, 0}, 1, 0.01, 0.01), measured({2, 1, 0}, 0.7, 0.01, 0.01),
+                           measured({0, 1, 0}, 0.9, 0.02, 0.1)};
+    for (cost::Measurement& m : report.measurements) m.slowdown.upper = 1.2;
+    CHECK(contains(cost::halfTimeSentence(report), "What looks the fastest is no Fresnel reflection: 10 % less time"));
+}
+
 TEST_CASE("what is recommended is the fastest that keeps the quality, with the fewest settings changed") {
     cost::Report report = sampleReport();
     CHECK(cost::recommended(report) == 0);
     CHECK(contains(cost::recommendationSentence(report), "Keep the scene's own settings"));
-    CHECK(cost::recommendedKeys(report).empty());
+    CHECK(cost::sceneKeys(report, cost::recommendedChoice(report)).empty());
     report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.0104, 0.011));
     CHECK(cost::recommended(report) == 6);
     CHECK(cost::recommendationSentence(report) ==
@@ -349,6 +458,65 @@ TEST_CASE("what is recommended is the fastest that keeps the quality, with the f
     CHECK(cost::recommended(report) == 0);
 }
 
+TEST_CASE("what is fast by chance shuts nothing else out") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    report.measurements.push_back(measured({0, 1, 2}, 0.6, 0.01, 0.01));
+    CHECK(cost::recommended(report) == 7);
+    report.measurements.back().slowdown = {0.6, 0.55, 0.85};  // repeats differ by more than it is faster
+    CHECK(cost::recommended(report) == 6);
+    report.measurements.back().slowdown.upper = 0.79;
+    CHECK(cost::recommended(report) == 7);
+    report.measurements[6].slowdown.lower = 0.78;
+    CHECK(cost::recommended(report) == 6);
+}
+
+TEST_CASE("what is recommended is timed again, and replaced where it was fast by chance") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    report.measurements.push_back(measured({0, 1, 2}, 0.6, 0.01, 0.01));  // by chance
+    std::vector<cost::Configuration> timed;
+    const auto again = [&](const cost::Configuration& configuration, uint32_t rounds) -> std::optional<cost::Measurement> {
+        CHECK(rounds == 5);
+        timed.push_back(configuration);
+        return measured(configuration, timed.size() == 1 ? 0.9 : 0.81, 0.01, 0.01);
+    };
+    cost::confirmRecommendation(
+        again, 5, [] { return 60.0; }, report);
+    CHECK(timed == std::vector<cost::Configuration>{{0, 1, 2}, {1, 1, 1}});
+    CHECK(cost::recommended(report) == 6);
+    CHECK(report.confirmed);
+    CHECK(report.measurements[6].slowdown.median == 0.81);
+    CHECK(contains(cost::recommendationRule(report), "timed once more"));
+}
+
+TEST_CASE("no recommendation is timed again beyond the time") {
+    cost::Report report = sampleReport();
+    for (size_t samples : {0, 1, 2}) report.measurements.push_back(measured({1, 1, samples}, 0.5, 0.01, 0.01));
+    double clock = 0;
+    size_t calls = 0;
+    // Each turns out slow, so that the next one is to be timed; a picture takes what the device does and half as long beside it.
+    const auto again = [&](const cost::Configuration& configuration, uint32_t rounds) -> std::optional<cost::Measurement> {
+        clock += (rounds + 1) * 1.5 * 15.25e-3;
+        ++calls;
+        return measured(configuration, 1, 0.01, 0.01);
+    };
+    for (const double seconds : {0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 1.0}) {
+        CAPTURE(seconds);
+        clock = 0, calls = 0;
+        cost::Report copy = report;
+        cost::confirmRecommendation(
+            again, 5, [&] { return seconds - clock; }, copy);
+        CHECK(clock <= seconds);
+        CHECK_FALSE(copy.confirmed);
+        CHECK(calls == (seconds < 0.1 ? 0 : seconds < 0.3 ? 1 : seconds < 1 ? 2 : 3));
+    }
+    CHECK(cost::affordableRounds(report, 6, 5, 0.1) == 3);
+    CHECK(cost::affordableRounds(report, 6, 5, 0.09) == 0);
+    CHECK(cost::affordableRounds(report, 6, 5, 0.12) == 4);
+    CHECK(cost::affordableRounds(report, 6, 5, 100) == 5);
+}
+
 TEST_CASE("of noisy pictures the error counts that the scene's own samples leave") {
     cost::Report report = sampleReport();
     report.reference.random = true;
@@ -362,16 +530,17 @@ TEST_CASE("of noisy pictures the error counts that the scene's own samples leave
 TEST_CASE("what is recommended can be typed, or written into the scene file") {
     cost::Report report = sampleReport();
     report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
-    CHECK(cost::recommendedCommands(report) ==
+    CHECK(cost::commandsFor(report, cost::recommendedChoice(report)) ==
           std::vector<std::string>{"minirtc bake 'glass & <ice>.json' -o 'glass & <ice>.mrt' --set fresnel=schlick",
                                    "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32"});
-    CHECK(cost::recommendedKeys(report) == R"("render": {"spp": 32, "accuracy": {"fresnel": "schlick"}})");
+    CHECK(cost::sceneKeys(report, cost::recommendedChoice(report)) ==
+          R"("render": {"spp": 32, "accuracy": {"fresnel": "schlick"}})");
     CHECK(contains(cost::recommendationSentence(report), "Take Schlick's Fresnel and 32 samples a pixel: 50 % less time"));
     report.baked = false;
     report.file = "it's.mrt";
-    CHECK(cost::recommendedCommands(report) ==
+    CHECK(cost::commandsFor(report, cost::recommendedChoice(report)) ==
           std::vector<std::string>{R"(minirt-render 'it'\''s.mrt' -o 'glass & <ice>.png' --spp 32)"});
-    CHECK(cost::recommendedKeys(report).empty());
+    CHECK(cost::sceneKeys(report, cost::recommendedChoice(report)).empty());
     CHECK(cost::shellWord("scenes/a-b_1.json") == "scenes/a-b_1.json");
     CHECK(cost::shellWord("") == "''");
 }
@@ -392,6 +561,36 @@ TEST_CASE("no two labels of a crowded plot meet, nor do labels and points") {
             }
         }
     }
+}
+
+TEST_CASE("a label without a leader is nearest to its own point") {
+    for (const double spread : {0.02, 0.05, 0.15}) {
+        CAPTURE(spread);
+        const cost::Box area = {46, 14, 820, 420};
+        const std::vector<cost::LabelWish> wishes = crowd(25, area, spread, 120);
+        const std::vector<cost::LabelPlace> places = cost::placeLabels(wishes, area, 11, {});
+        size_t beside = 0;
+        for (size_t i = 0; i < places.size(); ++i) {
+            if (!places[i].placed || places[i].leader) continue;
+            ++beside;
+            for (size_t k = 0; k < wishes.size(); ++k)
+                if (k != i) CHECK(cost::distance(wishes[k].mark, places[i].box) > cost::distance(wishes[i].mark, places[i].box));
+        }
+        if (spread > 0.1) CHECK(beside >= 3);
+    }
+}
+
+TEST_CASE("the most important label is beside its point, also where lines run through that") {
+    const cost::Box area = {0, 0, 400, 300};
+    const cost::LabelWish own = {{196, 146, 9, 9}, 100, 13};
+    const cost::LabelWish unnamed = {{150, 146, 9, 9}, 0, 13};
+    const std::vector<cost::Box> lines = {{100, 149, 250, 3}};
+    const std::vector<cost::LabelPlace> places = cost::placeLabels({own, unnamed}, area, 11, lines);
+    CHECK(places[0].placed);
+    CHECK_FALSE(places[0].leader);
+    CHECK(cost::distance(own.mark, places[0].box) < 8);
+    CHECK_FALSE(places[0].box.meets(lines[0]));
+    CHECK_FALSE(places[1].placed);
 }
 
 TEST_CASE("where there is room, no leader crosses a label") {
@@ -458,6 +657,59 @@ TEST_CASE("every point is in both plots, inside of their boxes") {
     CHECK_FALSE(contains(html, "inf\""));
 }
 
+TEST_CASE("what is recommended has a star, and what is like the scene's own settings no label") {
+    cost::Report report = sampleReport();
+    const auto count = [](const std::string& text, const std::string& part) {
+        size_t found = 0;
+        for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+        return found;
+    };
+    std::string html = cost::page(report);
+    CHECK(count(html, "class=\"star\"") == 2);  // in either plot
+    CHECK(contains(html, "recommended: the scene's own settings"));
+    CHECK_FALSE(contains(html, "class=\"lever pale\""));
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    html = cost::page(report);
+    CHECK(count(html, "class=\"star\"") == 2);
+    CHECK(contains(html, "recommended: Schlick's Fresnel"));
+    CHECK(contains(html, "</svg>the scene's own settings"));
+    CHECK(contains(html, ">6: Schlick's Fresnel</text>"));
+    report.measurements[2] = measured({1, 1, 1}, 1.01, 0.0101, 0.01);
+    html = cost::page(report);
+    CHECK(count(html, "<g class=\"lever pale\">") == 2);
+    CHECK_FALSE(contains(html, ">2: Schlick's Fresnel</text>"));
+    CHECK(contains(html, "They are Schlick's Fresnel (2)."));
+}
+
+TEST_CASE("the glossary explains the words that occur, once each, and the first of them leads there") {
+    cost::Glossary glossary;
+    CHECK(glossary.list().empty());
+    const std::string html = glossary.linked(
+        "<h2>Bias</h2><pre>bias --spp</pre><p title=\"bias\">Bias and bias; Pareto front<a href=\"#x\">noise</a>, unbiased</p>");
+    CHECK(html ==
+          "<h2>Bias</h2><pre>bias --spp</pre><p title=\"bias\"><a class=\"term\" href=\"#word-bias\">Bias</a> and bias; "
+          "<a class=\"term\" href=\"#word-pareto\">Pareto front</a><a href=\"#x\">noise</a>, unbiased</p>");
+    CHECK(glossary.linked("bias, more samples") == "bias, more <a class=\"term\" href=\"#word-sample\">samples</a>");
+    CHECK(contains(glossary.list(), "id=\"word-bias\""));
+    CHECK(contains(glossary.list(), "id=\"word-sample\""));
+    CHECK_FALSE(contains(glossary.list(), "id=\"word-noise\""));
+}
+
+TEST_CASE("each word that the page links is explained on it") {
+    const std::string html = cost::page(sampleReport());
+    const std::string link = "class=\"term\" href=\"#";
+    size_t links = 0;
+    for (size_t at = html.find(link); at != std::string::npos; at = html.find(link, at + 1), ++links) {
+        const size_t from = at + link.size();
+        const std::string id = html.substr(from, html.find('"', from) - from);
+        CAPTURE(id);
+        CHECK(contains(html, "<dt id=\"" + id + "\">"));
+    }
+    CHECK(links > 5);
+    CHECK(contains(html, "#word-fresnel"));
+    CHECK_FALSE(contains(html, "watertight"));
+}
+
 TEST_CASE("the JSON holds every measurement with its settings by name") {
     const auto json = nlohmann::json::parse(cost::reportJson(sampleReport()));
     CHECK(json["measurements"].size() == 6);
@@ -466,5 +718,7 @@ TEST_CASE("the JSON holds every measurement with its settings by name") {
     CHECK(json["findings"].size() == 2);
     CHECK(json["recommendation"]["changes"] == false);
     CHECK(json["recommendation"]["commands"].size() == 2);
+    CHECK(json["half_time"]["fits"] == true);
+    CHECK(json["half_time"]["choice"]["settings"]["samples"] == "32");
     CHECK(json["levers"][1]["reason"] == "no medium disperses light");
 }

@@ -220,7 +220,7 @@ void checkReadsWhatItNeeds(const std::filesystem::path& blob, const EffectSet& e
 
 EffectSet calledFor(const std::filesystem::path& scene, const std::vector<Part>& some) {
     Diagnostics diagnostics;
-    EffectSet effects = effectsOf(scene.string(), diagnostics);
+    const EffectSet effects = factsOf(scene.string(), diagnostics).effects;
     for (const Part& part : some) CHECK(effects.has(part.effect));
     return effects;
 }

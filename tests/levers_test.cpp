@@ -163,7 +163,9 @@ TEST_CASE("the cheapest and the dearest of all levers together compile in the ke
 }
 
 TEST_CASE("a lever applies where the scene calls for what it changes") {
-    const auto does = [](const char* lever, const EffectSet& effects) { return applies(findLever(lever), effects).applies; };
+    const auto does = [](const char* lever, const EffectSet& effects, Integrator one = Integrator::whitted) {
+        return applies(findLever(lever), effects, {one}).applies;
+    };
     const std::pair<const char*, Effect> pairs[] = {
         {"fresnel", Effect::fresnel},   {"fresnel", Effect::roughTransmission}, {"normals", Effect::smoothNormals},
         {"nesting", Effect::nesting},   {"absorption", Effect::absorption},     {"dispersion", Effect::dispersion},
@@ -172,14 +174,26 @@ TEST_CASE("a lever applies where the scene calls for what it changes") {
         CAPTURE(lever);
         CHECK_FALSE(does(lever, EffectSet()));
         CHECK(does(lever, only({effect})));
-        CHECK(applies(findLever(lever), only({effect})).reason == "the case");
+        CHECK(applies(findLever(lever), only({effect}), {Integrator::whitted}).reason == "the case");
     }
     for (const char* always : {"intersection", "ray_offset", "precision", "samples"}) CHECK(does(always, EffectSet()));
-    EffectSet paths = only({Effect::areaLights});
-    CHECK_FALSE(does("light_sampling", paths));
-    paths.paths = true;
+    CHECK(does("depth", EffectSet(), Integrator::path));
+}
+
+TEST_CASE("a lever of some integrators applies where one of them draws the scene") {
+    const EffectSet effects = only({Effect::reflection, Effect::areaLights});
+    const auto does = [&](const char* lever, const std::vector<Integrator>& integrators) {
+        return applies(findLever(lever), effects, integrators).applies;
+    };
+    const std::vector<Integrator> whitted = {Integrator::whitted}, paths = {Integrator::path, Integrator::wavefront};
+    for (const char* lever : {"cutoff", "weak_rays"}) {
+        CHECK(does(lever, whitted));
+        CHECK(does(lever, {Integrator::whitted, Integrator::path}));
+        CHECK_FALSE(does(lever, paths));
+    }
+    CHECK_FALSE(does("light_sampling", whitted));
     CHECK(does("light_sampling", paths));
-    CHECK(does("depth", paths));
+    CHECK(does("light_sampling", {Integrator::whitted, Integrator::wavefront}));
 }
 
 TEST_CASE("an effect is found by its name and left out where nothing calls for it") {

@@ -10,8 +10,8 @@ namespace {
 /// The compiler's own text explains a setting, which takes longer.
 const std::map<std::string, std::string>& words() {
     static const std::map<std::string, std::string> table = {
-        {"intersection=moller_trumbore_epsilon", "Möller and Trumbore's intersection with an epsilon"},
-        {"intersection=moller_trumbore", "Möller and Trumbore's intersection"},
+        {"intersection=moller_trumbore_epsilon", "Möller–Trumbore with an epsilon"},
+        {"intersection=moller_trumbore", "Möller–Trumbore intersection"},
         {"intersection=watertight", "watertight intersection"},
         {"ray_offset=constant", "a constant ray offset"},
         {"ray_offset=distance_scaled", "a ray offset scaled by distance"},
@@ -39,9 +39,9 @@ const std::map<std::string, std::string>& words() {
 
 std::string titleOf(const std::string& name) {
     static const std::map<std::string, std::string> titles = {
-        {"intersection", "Intersection"}, {"ray_offset", "Ray offset"},  {"fresnel", "Fresnel"},
-        {"normals", "Normals"},           {"nesting", "Nested volumes"}, {"absorption", "Absorption"},
-        {"dispersion", "Dispersion"},     {"precision", "Precision"},    {"weak_rays", "Weak rays"}};
+        {"intersection", "Intersection"}, {"ray_offset", "Ray offset"},      {"fresnel", "Fresnel"},
+        {"normals", "Normals"},           {"nesting", "Nesting of volumes"}, {"absorption", "Absorption"},
+        {"dispersion", "Dispersion"},     {"precision", "Precision"},        {"weak_rays", "Weak rays"}};
     const auto found = titles.find(name);
     return found == titles.end() ? name : found->second;
 }
@@ -87,13 +87,14 @@ Baker::~Baker() {
 
 std::vector<Lever> Baker::levers() const {
     const auto& [scene, geometry, bvh, nodes, volumes] = prepared_;
+    // What the scene asks for: another integrator is a lever itself, and moves alone.
     const bool paths = scene.render.integrator != minirtc::Integrator::whitted;
     const minirtc::EffectSet effects = minirtc::analyseEffects(scene, geometry, volumes, false, paths);
     std::vector<Lever> levers;
     for (const minirtc::Lever& lever : minirtc::levers()) {
         if (lever.when == minirtc::LeverTime::bake)
-            levers.push_back(
-                leverOf(lever, minirtc::settingOf(lever, scene.render.accuracy, scene), minirtc::applies(lever, effects)));
+            levers.push_back(leverOf(lever, minirtc::settingOf(lever, scene.render.accuracy, scene),
+                                     minirtc::applies(lever, effects, {scene.render.integrator})));
     }
     return levers;
 }

@@ -26,8 +26,10 @@ double falloff(const std::vector<Lever>& levers, const std::vector<Measurement>&
     return spread > 0 ? std::clamp(-(n * xy - x * y) / spread, 0.25, 2.0) : 1.0;
 }
 
-double msPerSample(const std::vector<Lever>& levers, const Measurement& m, double pixelRatio) {
-    return m.ms.median / samplesOf(levers, m.configuration) * pixelRatio;
+/// What cannot be told from the time of the scene's own settings, `own`, counts as that: else the fastest by chance is chosen.
+double msPerSample(const std::vector<Lever>& levers, const Measurement& m, const Measurement& own) {
+    const Measurement& timed = covers(m.slowdown, 1) ? own : m;
+    return timed.ms.median / samplesOf(levers, timed.configuration);
 }
 
 /// Both path tracers draw the same.
@@ -35,33 +37,62 @@ bool samePicture(const Lever& lever, size_t setting) {
     return lever.kind == LeverKind::integrator && lever.settings[setting].value != MINIRT_INTEGRATOR_WHITTED;
 }
 
-std::string samplesWords(uint32_t samples) {
-    return std::to_string(samples) + (samples == 1 ? " sample a pixel" : " samples a pixel");
+/// Levers that differ from the scene's own settings, but for the samples, of which a budget decides.
+size_t changes(const std::vector<Lever>& levers, const BudgetChoice& choice) {
+    size_t count = 0;
+    for (size_t i = 0; i < levers.size(); ++i)
+        count += levers[i].kind != LeverKind::samples && choice.configuration[i] != levers[i].initial ? 1 : 0;
+    return count;
 }
 
 }  // namespace
 
+BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
+                      uint32_t samples) {
+    const Configuration own = initialConfiguration(levers);
+    const double slope = falloff(levers, measurements);
+    const auto noiseAt = [&](const Measurement& of) {
+        return noiseOf(of, own) * std::pow(static_cast<double>(samplesOf(levers, of.configuration)) / samples, slope);
+    };
+    // Where pictures are not random, all have the same noise, and what shows less of it misses bright sparks.
+    const bool random = measurements.front().bias.standardError > 0;
+    const double noise = random ? noiseAt(m) : std::max(noiseAt(m), noiseAt(measurements.front()));
+    const double ms = msPerSample(levers, m, measurements.front()) * samples;
+    return {m.configuration, samples, ms, systematicError(m, own) + noise};
+}
+
 std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
                                          const std::vector<Measurement>& measurements, double pixelRatio) {
     constexpr double kMostSamples = 1 << 16;
-    const Configuration own = initialConfiguration(levers);
-    const double slope = falloff(levers, measurements);
-    std::optional<BudgetChoice> best;
+    constexpr double kRounding = 1e-9;
+    constexpr double kSameError = 0.02;
+    std::vector<BudgetChoice> choices;
+    double least = std::numeric_limits<double>::infinity();
     for (const Measurement& m : measurements) {
-        const double perSample = msPerSample(levers, m, pixelRatio);
-        const double samples = std::min(std::floor(ms / perSample), kMostSamples);
+        const double perSample = msPerSample(levers, m, measurements.front()) * pixelRatio;
+        const double samples = std::min(std::floor(ms / perSample + kRounding), kMostSamples);
         if (samples < 1) continue;
-        const double error =
-            systematicError(m, own) + noiseOf(m, own) * std::pow(samplesOf(levers, m.configuration) / samples, slope);
-        if (!best || error < best->relMse) best = {m.configuration, static_cast<uint32_t>(samples), samples * perSample, error};
+        choices.push_back(expected(levers, measurements, m, static_cast<uint32_t>(samples)));
+        choices.back().ms *= pixelRatio;
+        least = std::min(least, choices.back().relMse);
     }
-    return best;
+    const auto best = std::min_element(choices.begin(), choices.end(), [&](const BudgetChoice& a, const BudgetChoice& b) {
+        const bool goodA = a.relMse <= least * (1 + kSameError);
+        const bool goodB = b.relMse <= least * (1 + kSameError);
+        if (!goodA || !goodB) return goodA;
+        return changes(levers, a) != changes(levers, b) ? changes(levers, a) < changes(levers, b) : a.relMse < b.relMse;
+    });
+    return best == choices.end() ? std::nullopt : std::optional(*best);
 }
 
 double fastestMs(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, double pixelRatio) {
     double fastest = std::numeric_limits<double>::infinity();
-    for (const Measurement& m : measurements) fastest = std::min(fastest, msPerSample(levers, m, pixelRatio));
-    return fastest;
+    for (const Measurement& m : measurements) fastest = std::min(fastest, msPerSample(levers, m, measurements.front()));
+    return fastest * pixelRatio;
+}
+
+std::string samplesWords(uint32_t samples) {
+    return std::to_string(samples) + (samples == 1 ? " sample a pixel" : " samples a pixel");
 }
 
 std::string choiceWords(const std::vector<Lever>& levers, const BudgetChoice& choice) {

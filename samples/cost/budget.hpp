@@ -13,14 +13,22 @@ struct BudgetChoice {
     double relMse = 0;  // expected
 };
 
-/// Of all measured configurations, each with as many samples as fit `ms`, the one with the least error expected: time grows with the samples, the
-/// bias stays, the rest falls with a power of the samples that the lever of the samples shows. `pixelRatio`: pixels of the picture that is wanted over
-/// those of the measured ones. Nothing where not even one sample fits.
+/// What is expected of a measured configuration with so many samples a pixel: time grows with them, the bias stays, the rest of the error falls with a power
+/// of them that the lever of the samples shows.
+BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
+                      uint32_t samples);
+
+/// Of all measured configurations, each with as many samples as fit `ms`, the one with the least error expected; of those with about as little, the one
+/// that changes the fewest settings. `pixelRatio`: pixels of the picture that is wanted over those of the measured ones. Nothing where not even one sample
+/// fits.
 std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
                                          const std::vector<Measurement>& measurements, double pixelRatio);
 
 /// Milliseconds of one sample with the fastest configuration.
 double fastestMs(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, double pixelRatio);
+
+/// "12 samples a pixel".
+std::string samplesWords(uint32_t samples);
 
 /// "12 samples a pixel, 8 bounces": the samples, and what differs from the scene's own settings.
 std::string choiceWords(const std::vector<Lever>& levers, const BudgetChoice& choice);

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
+
+#include "figures.hpp"
 
 namespace cost {
 namespace {
 
-/// Less than this share of time, error or pixels is not worth a word.
+/// Less than this share of time or error is not worth a word.
 constexpr double kNoticeable = 0.005;
-constexpr double kNoticeablePixels = 0.002;
 
 bool isChance(const Estimate& difference, double noticeable) {
     return std::abs(difference.value) <= std::max(3 * difference.standardError, noticeable);
@@ -154,6 +154,13 @@ std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const st
     return all;
 }
 
+bool standsOut(const Measurement& m, const Measurement& own) {
+    const auto differ = [](double a, double b) { return std::abs(a - b) > kSameTime * b; };
+    const bool sameErrors = m.relMse.lower <= own.relMse.upper && own.relMse.lower <= m.relMse.upper;
+    const bool time = !covers(m.slowdown, 1) && differ(m.slowdown.median, 1);
+    return time || (!sameErrors && differ(m.error.relMse, own.error.relMse));
+}
+
 std::string sentence(const Lever& lever, const Comparison& c) {
     const std::string cheap =
         lever.plural && lever.kind != LeverKind::baked ? lever.settings[c.cheap].name : lever.settings[c.cheap].words;
@@ -197,27 +204,6 @@ std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector
     for (size_t i : order)
         if (chosen.size() < 2 && std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
     return chosen;
-}
-
-std::string percent(double share) {
-    const double value = share * 100;
-    char text[32];
-    if (value > 99 && value < 99.95)
-        std::snprintf(text, sizeof text, "%.1f %%", value);
-    else
-        std::snprintf(text, sizeof text, std::abs(value) < 0.95 ? "%.1g %%" : "%.0f %%", value);
-    return text;
-}
-
-std::string number(double value) {
-    if (value == 0) return "0";
-    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    char text[48];
-    if (magnitude < -4)
-        std::snprintf(text, sizeof text, "%.2g", value);
-    else
-        std::snprintf(text, sizeof text, "%.*f", std::max(2 - magnitude, 0), value);
-    return text;
 }
 
 }  // namespace cost

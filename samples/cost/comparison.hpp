@@ -7,6 +7,9 @@
 
 namespace cost {
 
+/// Less than this share of the pixels is not worth a word.
+constexpr double kNoticeablePixels = 0.002;
+
 enum class ErrorChange { none, less, more };
 
 /// One of the two is the scene's own setting.
@@ -28,6 +31,9 @@ struct Comparison {
 std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles,
                                       double moreSamples);
 
+/// Whether a measurement differs from `own`, of the scene's own settings, by more than chance and 2 %, in time or in error.
+bool standsOut(const Measurement& m, const Measurement& own);
+
 /// "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error." The same words for the same numbers.
 std::string sentence(const Lever& lever, const Comparison& comparison);
 
@@ -40,11 +46,5 @@ std::string verdict(const Comparison& comparison);
 /// The two to act on: a setting to keep and one to spare where there are such, else the two most useful. What everybody knows, that samples and
 /// integrators matter, comes last.
 std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons);
-
-/// "2 %", "0.4 %", "21 %".
-std::string percent(double share);
-
-/// A number to three significant digits: "0.00123", "45.6", "1230".
-std::string number(double value);
 
 }  // namespace cost

@@ -4,6 +4,7 @@
 #include <levers.hpp>
 
 #include "bake_levers.hpp"
+#include "figures.hpp"
 #include "scenes.hpp"
 
 namespace cost {

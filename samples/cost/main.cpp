@@ -6,6 +6,8 @@
 
 #include "../common/command_line.hpp"
 #include "bake_levers.hpp"
+#include "commands.hpp"
+#include "half_time.hpp"
 #include "hard_case_levers.hpp"
 #include "page.hpp"
 #include "recommendation.hpp"
@@ -94,8 +96,16 @@ cost::Report run(const Options& options) {
 
 /// What a person without the page wants to know.
 void print(const cost::Report& report) {
-    std::cout << recommendationSentence(report) << "\n";
-    for (const std::string& command : recommendedCommands(report)) std::cout << "  " << command << "\n";
+    const auto printAdvice = [&](const std::string& advice, const cost::BudgetChoice& choice) {
+        std::cout << advice << "\n";
+        for (const std::string& command : commandsFor(report, choice)) std::cout << "  " << command << "\n";
+    };
+    printAdvice(recommendationSentence(report), recommendedChoice(report));
+    const cost::HalfTime half = halfTime(report);
+    if (half.choice && !half.advised)
+        printAdvice(halfTimeSentence(report), *half.choice);
+    else
+        std::cout << halfTimeSentence(report) << "\n";
     for (const cost::Comparison& c : report.comparisons)
         if (c.leading) std::cout << sentence(report.levers[c.lever], c) << "\n";
     if (report.budgetMs > 0) std::cout << budgetSentence(report) << "\n";

@@ -2,25 +2,18 @@
 
 #include <algorithm>
 
+#include "commands.hpp"
+#include "figures.hpp"
+#include "glossary.hpp"
+#include "half_time.hpp"
+#include "html.hpp"
 #include "page_pictures.hpp"
+#include "page_plot.hpp"
 #include "page_style.hpp"
-#include "plot.hpp"
 #include "recommendation.hpp"
 
 namespace cost {
 namespace {
-
-std::string element(const std::string& name, const std::string& attributes, const std::string& content) {
-    return "<" + name + (attributes.empty() ? "" : " " + attributes) + ">" + content + "</" + name + ">\n";
-}
-
-/// Of sentences: numbers stay on the line of their unit.
-std::string prose(const std::string& text) {
-    std::string out = escaped(text);
-    for (const char* unit : {" %", " ms"})
-        for (size_t at = out.find(unit); at != std::string::npos; at = out.find(unit, at + 1)) out.replace(at, 1, "\u00a0");
-    return out;
-}
 
 std::string image(const std::string& uri, const std::string& alternative) {
     return "<img src=\"" + uri + "\" alt=\"" + escaped(alternative) + "\" loading=\"lazy\">";
@@ -30,28 +23,12 @@ std::string figure(const std::string& uri, const std::string& caption) {
     return element("figure", "", image(uri, caption) + element("figcaption", "", escaped(caption)));
 }
 
-std::string groupOf(const Report& report, size_t i) {
-    return i == 0 ? "own" : i < report.singles ? "lever" : "combination";
-}
-
 bool onFront(const Report& report, size_t i) {
     return std::find(report.front.begin(), report.front.end(), i) != report.front.end();
 }
 
 std::string anchor(size_t measurement) {
     return "picture-" + std::to_string(measurement);
-}
-
-/// Of a lever alone, for plots: "fresnel schlick"; "" of combinations.
-std::string shortName(const Report& report, size_t i) {
-    if (i == 0) return "the scene's own";
-    if (i >= report.singles) return "";
-    const Configuration& own = report.measurements[0].configuration;
-    const Configuration& c = report.measurements[i].configuration;
-    const size_t lever = static_cast<size_t>(std::mismatch(c.begin(), c.end(), own.begin()).first - c.begin());
-    std::string name = report.levers[lever].name + " " + report.levers[lever].settings[c[lever]].name;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
 }
 
 std::string signedPercent(double ratio) {
@@ -102,24 +79,32 @@ std::string findingsSection(const Report& report) {
         "<b>Look wrong</b>: off by more than " +
         std::to_string(kUnseenSteps) +
         " of a screen's 255 steps. <b>Keep</b>: worth its time. <b>Spare</b>: do without. More under "
-        "<a href=\"#method\">how this was measured</a>.";
+        "<a href=\"#method\">how this was measured</a>; underlined <a href=\"#words\">words</a> are explained there too.";
     return element("ul", "class=\"findings\"", items) + element("p", "class=\"soft\"", words);
 }
 
-/// How to get what the first sentence recommends, and by which rule it does.
-std::string howToSection(const Report& report) {
+/// What to type for a choice, or to write into the scene file.
+std::string typed(const Report& report, const std::string& heading, const BudgetChoice& choice) {
     std::string lines;
-    for (const std::string& command : recommendedCommands(report)) lines += escaped(command) + "\n";
+    for (const std::string& command : commandsFor(report, choice)) lines += escaped(command) + "\n";
+    std::string text = element("p", "", heading) + element("pre", "", lines);
+    const std::string keys = sceneKeys(report, choice);
+    const std::string beside = optionsBesideKeys(report, choice);
+    if (keys.empty()) return text;
+    text += element("p", "", "or write into the scene file, beside what its <code>render</code> section holds already,");
+    text += element("pre", "", escaped(keys));
+    if (!beside.empty()) text += element("p", "", "and give minirt-render <code>" + escaped(beside.substr(1)) + "</code>.");
+    return text;
+}
+
+/// How to get what the first sentences say, and by which rule they do.
+std::string howToSection(const Report& report) {
+    const HalfTime half = halfTime(report);
     std::string text =
-        element("p", "", recommended(report) ? "To get these settings, type" : "To render it with its own settings, type") +
-        element("pre", "", lines);
-    const std::string keys = recommendedKeys(report);
-    const std::string beside = recommendedOptionsBesideKeys(report);
-    if (!keys.empty())
-        text +=
-            element("p", "", "or write into the scene file, beside what its <code>render</code> section holds already,") +
-            element("pre", "", escaped(keys)) +
-            (beside.empty() ? "" : element("p", "", "and give minirt-render <code>" + escaped(beside.substr(1)) + "</code>."));
+        typed(report, recommended(report) ? "To get these settings, type" : "To render it with its own settings, type",
+              recommendedChoice(report));
+    if (half.choice && !half.advised)
+        text += typed(report, half.fits ? "For half the time, type" : "For the fastest, type", *half.choice);
     return element("div", "class=\"card howto\"", text + element("p", "class=\"soft\"", prose(recommendationRule(report))));
 }
 
@@ -136,7 +121,8 @@ std::string unsteadyWarning(const Report& report) {
 
 std::string head(const Report& report) {
     std::string text = element("h1", "", "What accuracy costs: " + escaped(report.scene)) +
-                       element("p", "class=\"answer\"", prose(recommendationSentence(report)));
+                       element("p", "class=\"answer\"", prose(recommendationSentence(report))) +
+                       element("p", "class=\"half\"", prose(halfTimeSentence(report)));
     text += element(
         "p", "class=\"soft\"",
         escaped(std::string(report.device.name) + ", " + std::to_string(report.width) + " × " + std::to_string(report.height) +
@@ -152,40 +138,6 @@ std::string head(const Report& report) {
     pictures += figure(pictureUri(report.reference.mean), "The reference: every lever at its most accurate, " +
                                                               std::to_string(report.reference.samples) + " samples a pixel");
     return text + element("div", "class=\"hero\"", pictures);
-}
-
-Plot plotOf(const Report& report, double width, double height, bool names) {
-    Plot plot;
-    plot.width = width;
-    plot.height = height;
-    plot.names = names;
-    plot.cssClass = names ? "wide" : "narrow";
-    plot.front = report.front;
-    plot.floor = report.reference.relMse;
-    for (size_t i = 0; i < report.measurements.size(); ++i) {
-        const Measurement& m = report.measurements[i];
-        plot.points.push_back({std::to_string(i), names ? shortName(report, i) : report.nameOf(i), groupOf(report, i),
-                               m.ms.median, m.ms.lower, m.ms.upper, m.error.relMse});
-    }
-    return plot;
-}
-
-std::string plotSection(const Report& report) {
-    const std::string keys =
-        "<li class=\"own\"><svg viewBox=\"0 0 12 12\"><circle cx=\"6\" cy=\"6\" r=\"5\" fill=\"currentColor\"/></svg>the scene's "
-        "own settings</li>"
-        "<li class=\"lever\"><svg viewBox=\"0 0 12 12\"><circle cx=\"6\" cy=\"6\" r=\"4\" fill=\"currentColor\"/></svg>one lever "
-        "moved</li>"
-        "<li class=\"combination\"><svg viewBox=\"0 0 12 12\"><path d=\"M1 6l5-5 5 5-5 5z\" fill=\"none\" "
-        "stroke=\"currentColor\" stroke-width=\"1.6\"/></svg>several moved</li>"
-        "<li><svg viewBox=\"0 0 12 12\"><path d=\"M0 6H12\" stroke=\"var(--front)\" stroke-width=\"2\"/></svg>Pareto front: "
-        "nothing measured is both faster and more accurate</li>";
-    const std::string svgs = plotSvg(plotOf(report, 320, 330, false)) + plotSvg(plotOf(report, 860, 480, true));
-    return element("h2", "", "Error against time") +
-           element("div", "class=\"card\"", svgs + element("ul", "class=\"legend\"", keys)) +
-           element("p", "class=\"soft\"",
-                   "The numbers are those of the table. Left is faster, lower is more accurate; both axes are logarithmic; bars "
-                   "span the middle half of the repeats.");
 }
 
 std::string leversSection(const Report& report) {
@@ -258,24 +210,24 @@ std::string row(const Report& report, size_t i) {
 std::string tableSection(const Report& report) {
     std::string rows;
     for (size_t i : tableOrder(report)) rows += row(report, i);
-    const std::string bias = report.reference.random ? "bias, relMSE" : "relMSE at the same samples";
+    const std::string bias = report.reference.random ? "bias, of the error" : "error at the same samples";
     std::string headings = "<th>settings</th>";
     for (const std::string& heading :
          {std::string("ms a picture"), std::string("middle half, ms"), std::string("time against the scene's own"),
-          std::string("error (relMSE), noise included"), bias, std::string("wrong pixels, noise included"),
+          std::string("error (relMSE), noise included"), bias, std::string("pixels that look wrong, noise included"),
           std::string("largest error, radiance"), std::string("pipelines, ms"), std::string("kernels, kB")})
         headings += element("th", "scope=\"col\"", heading);
     return element("h2", "", "All figures") +
            element("p", "class=\"soft narrow\"", "The table goes on to the right: push it aside.") +
            element("div", "class=\"scroll\" tabindex=\"0\"",
                    element("table", "", element("thead", "", element("tr", "", headings)) + element("tbody", "", rows))) +
-           element(
-               "p", "class=\"soft\"",
-               "Each row is named by what differs from the scene's own settings. <b>Middle half</b>: the middle half of the "
-               "repeats "
-               "took from so many ms to so many. <b>Wrong</b>: off by enough to be seen. <b>Green</b>: on the Pareto front, "
-               "nothing measured is both faster and more accurate. <b>Pipelines</b> and <b>kernels</b>: what the driver took to "
-               "translate the programs of the device, once, and how large these are.");
+           element("p", "class=\"soft\"",
+                   "Each row is named by what differs from the scene's own settings. <b>Middle half</b>: the middle half of the "
+                   "repeats "
+                   "took from so many ms to so many. <b>Green</b>: on the Pareto front, "
+                   "nothing measured is surely both faster and more accurate. <b>Pipelines</b> and <b>kernels</b>: what the "
+                   "driver took to "
+                   "translate the programs of the device, once, and how large these are.");
 }
 
 /// What a picture is held against: Whitted's show what a lever does at the same samples.
@@ -290,7 +242,7 @@ const Picture& judgeOf(const Report& report, size_t i) {
 std::string picturePair(const Report& report, size_t i, const std::string& name) {
     const Measurement& m = report.measurements[i];
     const std::string what =
-        std::to_string(i) + ": " + name + " (relMSE " + number(m.error.relMse) + ", " + number(m.ms.median) + " ms)";
+        std::to_string(i) + ": " + name + " (error " + number(m.error.relMse) + ", " + number(m.ms.median) + " ms)";
     return element("div", "class=\"pair\" id=\"" + anchor(i) + "\"",
                    element("p", "", escaped(what)) + image(pictureUri(m.picture), name) +
                        image(differenceUri(m.picture, judgeOf(report, i)), "where it differs from the reference"));
@@ -342,13 +294,13 @@ std::string methodSection(const Report& report) {
         element("p", "",
                 "<b>Error</b> is relMSE: the mean over pixels and channels of (x − r)² / (r² + " + number(kRelMseEpsilon) +
                     "), x the linear radiance of the picture, r the reference's, without the " + percent(kOutliers) +
-                    " of the pixels that are worst. A pixel is <b>wrong</b> when a channel of its "
+                    " of the pixels that are worst. A pixel <b>looks wrong</b> when a channel of its "
                     "8-bit sRGB value is off by more than " +
                     std::to_string(kUnseenSteps) + " steps.");
     text += element("p", "",
                     "The <b>reference</b> has every lever at its most accurate setting and " + std::to_string(r.samples) +
-                        " samples a pixel. Its own relMSE, from the difference of two independent halves, is " +
-                        number(r.relMse) + "; smaller errors than that, noise included, are not to be believed.");
+                        " samples a pixel. Its own error, from the difference of two independent halves, is " + number(r.relMse) +
+                        "; smaller errors than that, noise included, are not to be believed.");
     text +=
         r.random
             ? element("p", "",
@@ -358,7 +310,7 @@ std::string methodSection(const Report& report) {
                           std::to_string(report.sceneSamples) + " samples a pixel: bias stays, noise falls as their number.")
             : element(
                   "p", "",
-                  "<b>At the same samples</b> is relMSE against the reference's settings at the same sample positions: what "
+                  "<b>At the same samples</b> is the error against the reference's settings at the same sample positions: what "
                   "the lever itself does, without the error of too few samples. Whitted's pictures repeat bit for bit. "
                   "A sentence judges a lever by itself: what the cheaper setting adds in that column is removed, as a share "
                   "of the error, noise included, that the accurate setting has and this on top of it. Noise may hide some of "
@@ -393,8 +345,11 @@ std::string foot(const Report& report) {
 }  // namespace
 
 std::string page(const Report& report) {
-    const std::string body = head(report) + plotSection(report) + leversSection(report) + tableSection(report) +
-                             picturesSection(report) + hardCasesSection(report) + methodSection(report) + foot(report);
+    Glossary glossary;
+    const std::string found = glossary.linked(head(report) + plotSection(report) + leversSection(report) + tableSection(report) +
+                                              picturesSection(report) + hardCasesSection(report));
+    const std::string method = glossary.linked(methodSection(report));
+    const std::string body = found + element("h2", "id=\"words\"", "Words") + glossary.list() + method + foot(report);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
            "content=\"width=device-width, initial-scale=1\">\n" +
            element("title", "", "What accuracy costs: " + escaped(report.scene)) + element("style", "", kPageStyle) +

@@ -25,6 +25,7 @@ figcaption { margin-top: .25rem; }
 .findings li { background: var(--card); border: 1px solid var(--rule); border-left: 5px solid var(--either); border-radius: 6px; padding: .7rem .9rem; font-size: 1.08rem; }
 .findings .keep { border-left-color: var(--keep); } .findings .spare { border-left-color: var(--spare); } .findings .trade { border-left-color: var(--trade); }
 .answer { font-size: 1.3rem; line-height: 1.35; font-weight: 600; margin: .6rem 0; }
+.half { font-size: 1.1rem; line-height: 1.4; }
 .warning { color: var(--spare); }
 .howto { padding: .3rem .9rem; margin: 1rem 0; }
 pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); border-radius: 4px; background: var(--paper); font-size: .85rem; white-space: pre-wrap; overflow-wrap: anywhere; }
@@ -37,6 +38,8 @@ pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); bord
 .plot { width: 100%; height: auto; font-family: inherit; }
 .plot text { fill: var(--ink); font-size: 11px; } .plot .tick { fill: var(--soft); font-size: 10px; } .plot .axis { fill: var(--soft); }
 .plot .grid { stroke: var(--rule); stroke-width: .7; } .plot .leader { stroke: var(--soft); stroke-width: .5; }
+.plot .half { stroke: var(--soft); stroke-dasharray: 1 3; } .plot .important { font-weight: 700; }
+.plot .star { stroke-width: 1.5; } .pale { opacity: .5; }
 .plot .front { fill: none; stroke: var(--front); stroke-width: 1.6; } .plot .floor { stroke: var(--soft); stroke-dasharray: 4 3; }
 .plot .spread { fill: none; stroke: currentColor; stroke-width: 1.6; opacity: .55; }
 .own { color: var(--own); } .lever { color: var(--lever); } .combination { color: var(--combination); }
@@ -47,6 +50,8 @@ pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); bord
 @media (min-width: 46rem) { .wide { display: block; } .narrow { display: none; } }
 .legend { display: flex; flex-wrap: wrap; gap: .2rem 1.1rem; margin: .3rem .2rem; padding: 0; list-style: none; font-size: .88rem; }
 .legend svg { width: 14px; height: 14px; vertical-align: -2px; margin-right: .3em; overflow: visible; }
+.numbers { columns: 20rem; margin: .2rem; padding: 0; list-style: none; font-size: .88rem; }
+.numbers li { break-inside: avoid; }
 .scroll { overflow-x: auto; border: 1px solid var(--rule); border-radius: 6px; background: var(--card); }
 table { border-collapse: separate; border-spacing: 0; font-size: .86rem; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { padding: .35rem .5rem; text-align: right; border-bottom: 1px solid var(--rule); }
@@ -63,7 +68,9 @@ td.front { font-weight: 700; color: var(--front); }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 0 1.4rem; }
 .key { max-width: 30rem; } .scale { height: 12px; image-rendering: pixelated; } .steps { display: flex; justify-content: space-between; }
 code { background: var(--card); border: 1px solid var(--rule); border-radius: 4px; padding: .1em .35em; font-size: .85em; }
-a { color: var(--lever); }
+a { color: var(--lever); } .term { color: inherit; text-decoration: underline dotted; text-underline-offset: .2em; }
+.words { font-size: .92rem; } .words code { white-space: nowrap; } .words dt { font-weight: 600; } .words dd { margin: 0 0 .5rem 0; } .words :target { color: var(--own); }
+@media (min-width: 46rem) { .words { display: grid; grid-template-columns: 11rem 1fr; } .words dd { margin-bottom: .3rem; } }
 footer { border-top: 1px solid var(--rule); margin-top: 2rem; padding-top: .6rem; }
 )css";
 

@@ -22,4 +22,19 @@ std::vector<size_t> paretoFront(const std::vector<Tradeoff>& points) {
     return front;
 }
 
+std::vector<size_t> surelyOnFront(const std::vector<Measurement>& measurements) {
+    const Measurement& own = measurements.front();
+    std::vector<size_t> numbers;
+    std::vector<Tradeoff> points;
+    for (size_t i = 0; i < measurements.size(); ++i) {
+        const Measurement& m = measurements[i];
+        if (i > 0 && !standsOut(m, own)) continue;
+        numbers.push_back(i);
+        points.push_back({covers(m.slowdown, 1) ? own.ms.median : m.ms.median, m.error.relMse});
+    }
+    std::vector<size_t> front = paretoFront(points);
+    for (size_t& i : front) i = numbers[i];
+    return front;
+}
+
 }  // namespace cost

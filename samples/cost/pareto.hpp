@@ -1,7 +1,6 @@
 // Which of several choices no other one beats in both time and error.
 #pragma once
-#include <cstddef>
-#include <vector>
+#include "comparison.hpp"
 
 namespace cost {
 
@@ -12,5 +11,9 @@ struct Tradeoff {
 
 /// Numbers of the points on the front, by growing time. Of equal points the first.
 std::vector<size_t> paretoFront(const std::vector<Tradeoff>& points);
+
+/// Numbers of the measurements on the front, by growing time; the first one is of the scene's own settings. What is like these but for chance beats nothing, and
+/// a time that cannot be told from theirs counts as theirs.
+std::vector<size_t> surelyOnFront(const std::vector<Measurement>& measurements);
 
 }  // namespace cost

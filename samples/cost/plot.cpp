@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "html.hpp"
 #include "plot_labels.hpp"
 
 namespace cost {
@@ -27,8 +28,10 @@ struct Axis {
     double from = 0, to = 1;   // where they lie
 
     double at(double value) const { return from + (std::log10(value) - low) / (high - low) * (to - from); }
+    bool shows(double value) const { return value > 0 && std::log10(value) > low && std::log10(value) < high; }
 };
 
+/// Holds all values, and so much around them that none lies on the edge.
 Axis axisAround(const std::vector<double>& values, double from, double to) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     constexpr double kMargin = 0.07;
@@ -46,18 +49,15 @@ std::vector<double> ticksOf(const Axis& axis) {
                                       : span > 1.2 ? std::vector<double>{1, 3}
                                                    : std::vector<double>{1, 1.5, 2, 3, 5, 7};
     std::vector<double> ticks;
-    for (double power = std::floor(axis.low); power <= axis.high; power += 1) {
-        for (double step : steps) {
-            const double value = step * std::pow(10.0, power);
-            if (std::log10(value) >= axis.low && std::log10(value) <= axis.high) ticks.push_back(value);
-        }
-    }
+    for (double power = std::floor(axis.low); power <= axis.high; power += 1)
+        for (double step : steps)
+            if (axis.shows(step * std::pow(10.0, power))) ticks.push_back(step * std::pow(10.0, power));
     return ticks;
 }
 
 /// Of a text in the plot's letters, at most.
 double lengthOf(const std::string& content) {
-    constexpr double kLetter = 7;
+    constexpr double kLetter = 6.4;
     double length = 0;
     for (char c : content) length += (static_cast<unsigned char>(c) & 0xc0) == 0x80 ? 0 : kLetter;
     return length;
@@ -78,31 +78,43 @@ public:
     explicit Drawing(const Plot& plot) : plot_(plot) {
         std::vector<double> times;
         std::vector<double> errors;
-        for (const PlotPoint& p : plot.points) times.push_back(p.time), errors.push_back(std::max(p.error, 1e-9));
+        for (const PlotPoint& p : plot.points) {
+            times.push_back(p.time);
+            errors.push_back(std::max(p.error, kLeastError));
+            if (!p.pale) times.insert(times.end(), {p.timeLower, p.timeUpper});
+        }
         x_ = axisAround(times, kLeft, plot.width - kRight);
         y_ = axisAround(errors, plot.height - kBottom, kTop);
     }
 
-    std::string svg() {
-        std::string out = "<svg class=\"plot " + plot_.cssClass + "\" viewBox=\"0 0 " + fixed(plot_.width) + " " +
-                          fixed(plot_.height) + "\" role=\"img\" aria-label=\"Error against time, both by their logarithm\">\n";
-        out += axes() + front();
+    DrawnPlot draw() {
+        DrawnPlot drawn;
+        drawn.svg = "<svg class=\"plot " + plot_.cssClass + "\" viewBox=\"0 0 " + fixed(plot_.width) + " " + fixed(plot_.height) +
+                    "\" role=\"img\" aria-label=\"Error against time, both by their logarithm\">\n" + axes() + front();
         const std::vector<LabelPlace> places = labelPlaces();
-        for (size_t i = 0; i < places.size(); ++i) out += leader(plot_.points[i], places[i]);
-        for (size_t i = plot_.points.size(); i-- > 0;) out += mark(plot_.points[i]);
-        for (size_t i = 0; i < places.size(); ++i) out += label(plot_.points[i], places[i]);
-        return out + "</svg>\n";
+        for (size_t i = plot_.points.size(); i-- > 0;) drawn.svg += mark(plot_.points[i]);
+        for (size_t i = 0; i < places.size(); ++i) drawn.svg += leader(plot_.points[i], places[i]);
+        for (size_t i = 0; i < places.size(); ++i) {
+            if (!places[i].placed) continue;
+            const PlotPoint& p = plot_.points[i];
+            const std::string content = places[i].shortened ? p.number : p.text;
+            drawn.svg += label(p, places[i].box, content);
+            if (content == p.number) drawn.numbersAlone.push_back(i);
+        }
+        drawn.svg += "</svg>\n";
+        return drawn;
     }
 
 private:
-    static constexpr double kLeft = 46, kRight = 12, kTop = 22, kBottom = 40, kMark = 4.5, kOwnMark = 6, kText = 11;
+    static constexpr double kLeft = 46, kRight = 12, kTop = 22, kBottom = 40, kText = 11;
     static constexpr double kApart = 5;  // two labels side by side, so that numbers do not run together
+    static constexpr double kLeastError = 1e-9;
     static constexpr const char* kFloorText = "the reference's own error";
+    static constexpr const char* kHalfText = "half the time";
 
-    double floorAt() const { return plot_.floor > 0 ? y_.at(plot_.floor) : 0; }
-    bool floorShows() const { return floorAt() > y_.to && floorAt() < y_.from; }
+    double yOf(const PlotPoint& p) const { return y_.at(std::max(p.error, kLeastError)); }
 
-    double yOf(const PlotPoint& p) const { return y_.at(std::max(p.error, 1e-9)); }
+    static double radiusOf(const PlotPoint& p) { return p.advised ? 10 : p.pale ? 2.5 : p.group == "own" ? 6 : 4.5; }
 
     std::string axes() const {
         std::string out;
@@ -116,8 +128,14 @@ private:
         }
         out += text((x_.from + x_.to) / 2, plot_.height - 6, "axis", "middle", "time for a picture, ms");
         out += text(4, 12, "axis", "start", "error (relMSE): less is better");
-        if (floorShows())
-            out += line(x_.from, floorAt(), x_.to, floorAt(), "floor") + text(x_.to, floorAt() - 3, "tick", "end", kFloorText);
+        if (y_.shows(plot_.floor)) {
+            out += line(x_.from, y_.at(plot_.floor), x_.to, y_.at(plot_.floor), "floor");
+            out += text(x_.to, y_.at(plot_.floor) - 3, "tick", "end", kFloorText);
+        }
+        if (x_.shows(plot_.halfTime)) {
+            out += line(x_.at(plot_.halfTime), y_.to, x_.at(plot_.halfTime), y_.from, "half");
+            out += text(x_.at(plot_.halfTime) + 3, y_.from - 4, "tick", "start", kHalfText);
+        }
         return out;
     }
 
@@ -134,61 +152,74 @@ private:
     std::string mark(const PlotPoint& p) const {
         const double x = x_.at(p.time);
         const double y = yOf(p);
-        const auto inside = [&](double at) { return fixed(std::clamp(at, x_.from, x_.to)); };
-        std::string out = "<g class=\"" + p.group + "\"><title>" + escaped(p.label + ": " + p.name) + "</title>";
-        out += "<path class=\"spread\" d=\"M" + inside(x_.at(p.timeLower)) + " " + fixed(y) + "H" + inside(x_.at(p.timeUpper)) +
-               "\"/>";
-        if (p.group == "combination")
-            out += "<path d=\"M" + fixed(x - kMark) + " " + fixed(y) + "l4.5-4.5 4.5 4.5-4.5 4.5z\"/>";
-        else
-            out += "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(p.group == "own" ? kOwnMark : kMark) +
+        std::string out =
+            "<g class=\"" + p.group + (p.pale ? " pale" : "") + "\"><title>" + escaped(p.number + ": " + p.name) + "</title>";
+        if (!p.pale)
+            out += "<path class=\"spread\" d=\"M" + fixed(x_.at(p.timeLower)) + " " + fixed(y) + "H" + fixed(x_.at(p.timeUpper)) +
                    "\"/>";
+        if (p.advised)
+            out += "<path class=\"star\" d=\"" + starPath(x, y, radiusOf(p)) + "\"/>";
+        else if (p.group == "combination" && !p.pale)
+            out += "<path d=\"M" + fixed(x - radiusOf(p)) + " " + fixed(y) + "l4.5-4.5 4.5 4.5-4.5 4.5z\"/>";
+        else
+            out += "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(radiusOf(p)) + "\"/>";
         return out + "</g>\n";
     }
 
-    std::string contentOf(const PlotPoint& p) const { return plot_.names && !p.name.empty() ? p.label + " " + p.name : p.label; }
-
-    /// A bar that only spreads the time is no mark: labels keep off it only where there is room.
     Box markOf(const PlotPoint& p) const {
-        const double half = p.group == "own" ? kOwnMark : kMark;
+        const double half = radiusOf(p);
         return {x_.at(p.time) - half, yOf(p) - half, 2 * half, 2 * half};
     }
 
     std::vector<LabelPlace> labelPlaces() const {
         std::vector<LabelWish> wishes;
         wishes.reserve(plot_.points.size());
-        for (const PlotPoint& p : plot_.points)
-            wishes.push_back({markOf(p), lengthOf(contentOf(p)) + kApart, lengthOf(p.label) + kApart});
+        for (const PlotPoint& p : plot_.points) {
+            const double width = p.text.empty() ? 0 : lengthOf(p.text) + kApart;
+            wishes.push_back({markOf(p), width, lengthOf(p.number) + kApart});
+        }
         const Box area = {x_.from + 1, kTop - 8, plot_.width - x_.from - 2, y_.from - kTop + 8};
         return placeLabels(wishes, area, kText, lines());
     }
 
-    /// What crosses labels out if it runs through them: the bars, the front, and the text of the reference's own error.
+    /// What labels keep off where there is room: bars, the front, and the texts of the lines.
     std::vector<Box> lines() const {
         std::vector<Box> boxes;
         const auto add = [&](double x1, double y1, double x2, double y2) {
             boxes.push_back({std::min(x1, x2) - 1, std::min(y1, y2) - 1, std::abs(x2 - x1) + 2, std::abs(y2 - y1) + 2});
         };
-        for (const PlotPoint& p : plot_.points) add(x_.at(p.timeLower), yOf(p), x_.at(p.timeUpper), yOf(p));
+        constexpr double kBesideBar = 6;  // a label at the end of a bar seems to belong to it
+        for (const PlotPoint& p : plot_.points)
+            if (!p.pale) add(x_.at(p.timeLower) - kBesideBar, yOf(p), x_.at(p.timeUpper) + kBesideBar, yOf(p));
         for (size_t i = 1; i < plot_.front.size(); ++i) {
             const PlotPoint& before = plot_.points[plot_.front[i - 1]];
             const PlotPoint& after = plot_.points[plot_.front[i]];
             add(x_.at(before.time), yOf(before), x_.at(after.time), yOf(before));
             add(x_.at(after.time), yOf(before), x_.at(after.time), yOf(after));
         }
-        if (floorShows()) add(x_.to - lengthOf(kFloorText), floorAt() - kText - 2, x_.to, floorAt());
+        const double floor = y_.at(plot_.floor);
+        const double half = x_.at(plot_.halfTime);
+        if (y_.shows(plot_.floor)) add(x_.to - lengthOf(kFloorText), floor - kText - 2, x_.to, floor);
+        if (!x_.shows(plot_.halfTime)) return boxes;
+        add(half, y_.to, half, y_.from);
+        add(half, y_.from - kText - 4, half + lengthOf(kHalfText), y_.from);
         return boxes;
     }
 
     std::string leader(const PlotPoint& p, const LabelPlace& place) const {
-        return place.placed && place.leader ? line(x_.at(p.time), yOf(p), place.leaderX, place.leaderY, "leader") : "";
+        return place.leader ? line(x_.at(p.time), yOf(p), place.leaderX, place.leaderY, "leader") : "";
     }
 
-    std::string label(const PlotPoint& p, const LabelPlace& place) const {
+    /// A content that is shorter than its box stays at its mark.
+    std::string label(const PlotPoint& p, const Box& box, const std::string& content) const {
         constexpr double kDescent = 2;  // of letters, under their line
-        if (!place.placed) return "";
-        return text(place.box.x + kApart / 2, place.box.y + place.box.height - kDescent, "label", "start",
-                    place.shortened ? p.label : contentOf(p));
+        const std::string cssClass = p.advised || p.group == "own" ? "label important" : "label";
+        const double y = box.y + box.height - kDescent;
+        const double left = box.x + kApart / 2;
+        const double right = box.x + box.width - kApart / 2;
+        if (left >= x_.at(p.time)) return text(left, y, cssClass, "start", content);
+        if (right <= x_.at(p.time)) return text(right, y, cssClass, "end", content);
+        return text(box.middleX(), y, cssClass, "middle", content);
     }
 
     const Plot& plot_;
@@ -197,25 +228,20 @@ private:
 
 }  // namespace
 
-std::string plotSvg(const Plot& plot) {
-    return Drawing(plot).svg();
+DrawnPlot drawPlot(const Plot& plot) {
+    return Drawing(plot).draw();
 }
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
+std::string starPath(double x, double y, double radius) {
+    constexpr double kPi = 3.14159265358979;
+    constexpr double kInner = 0.45;
+    std::string path;
+    for (int i = 0; i < 10; ++i) {
+        const double r = i % 2 ? kInner * radius : radius;
+        const double angle = kPi * i / 5;
+        path += (i ? "L" : "M") + fixed(x + r * std::sin(angle)) + " " + fixed(y - r * std::cos(angle));
     }
-    return out;
+    return path + "z";
 }
 
 }  // namespace cost

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cost {
 namespace {
 
-constexpr double kGap = 2;         // between a mark and its label
-constexpr double kStep = 3;        // between two places that are tried
-constexpr double kLeaderFrom = 7;  // a label farther than this from its mark has a leader
-constexpr double kFarthest = 60;   // that a long label may be from its mark
+constexpr double kGap = 2;          // between a mark and its label
+constexpr double kStep = 3;         // between two places that are tried
+constexpr double kLeaderFrom = 7;   // a label farther than this from its mark has a leader
+constexpr double kFarthest = 60;    // that a long label may be from its mark
+constexpr double kOffLine = 30;     // by so much farther off a label may be to keep off a line
+constexpr double kWithLeader = 10;  // likewise to do without a leader
 
 struct Segment {
     double x1, y1, x2, y2;
@@ -30,7 +33,11 @@ bool crosses(const Segment& s, const Box& box) {
     return clip(s.x1, s.x2 - s.x1, box.x, box.x + box.width) && clip(s.y1, s.y2 - s.y1, box.y, box.y + box.height);
 }
 
-/// What labels and leaders keep off beside other labels and marks: lines and marks under leaders, or only what makes a leader point to the wrong label.
+bool meetsAny(const Box& box, const std::vector<Box>& others) {
+    return std::any_of(others.begin(), others.end(), [&](const Box& other) { return box.meets(other); });
+}
+
+/// What leaders keep off: labels and other marks, or only what makes a leader point to the wrong label.
 enum class Avoid { all, labels, none };
 
 class Placing {
@@ -42,13 +49,14 @@ public:
 
     LabelPlace place(const LabelWish& wish) {
         LabelPlace place;
+        if (wish.width <= 0) return place;
         const double everywhere = area_.width + area_.height;
-        place.placed = tryAll(wish.mark, wish.width, kFarthest, Avoid::all, place);
-        place.shortened = !place.placed;
-        for (const Avoid avoid : {Avoid::all, Avoid::labels, Avoid::none})
-            place.placed = place.placed || tryAll(wish.mark, wish.shortWidth, everywhere, avoid, place);
-        if (!place.placed) return place;
-        labels_.push_back(place.box);
+        place = best(wish.mark, wish.width, kFarthest, Avoid::all);
+        if (!place.placed) place = best(wish.mark, wish.shortWidth, kFarthest, Avoid::all);
+        for (const Avoid avoid : {Avoid::labels, Avoid::none})
+            if (!place.placed) place = best(wish.mark, wish.shortWidth, everywhere, avoid);
+        place.shortened = place.placed && place.box.width < wish.width;
+        if (place.placed) labels_.push_back(place.box);
         if (place.leader) leaders_.push_back(leaderOf(wish.mark, place));
         return place;
     }
@@ -58,48 +66,66 @@ private:
         return {mark.middleX(), mark.middleY(), place.leaderX, place.leaderY};
     }
 
-    /// Rings of places around the mark, from the nearest; on each from the right, first above, then below.
-    bool tryAll(const Box& mark, double width, double farthest, Avoid avoid, LabelPlace& place) const {
-        for (double off = kGap; off <= farthest; off += kStep) {
-            const double above = mark.y - off - height_;
-            const double below = mark.y + mark.height + off;
-            const double right = mark.x + mark.width + off;
-            const double left = mark.x - off - width;
-            const double middle = mark.middleY() - height_ / 2;
-            for (double y : {middle, middle - off / 2, middle + off / 2, above, below})
-                for (double x : {right, left})
-                    if (suits(mark, {x, y, width, height_}, avoid, place)) return true;
-            for (double y : {above, below})
-                for (double shift = 0; shift <= width + off; shift += kStep)
-                    for (double x : {mark.middleX() - width / 2 + shift / 2, mark.middleX() - width / 2 - shift / 2})
-                        if (suits(mark, {x, y, width, height_}, avoid, place)) return true;
-        }
-        return false;
+    /// The cheapest place on rings around the mark, of equal ones the first: from the right, first above, then below.
+    LabelPlace best(const Box& mark, double width, double farthest, Avoid avoid) const {
+        LabelPlace found;
+        double least = std::numeric_limits<double>::infinity();
+        for (double off = kGap; off <= farthest && off < least; off += kStep)
+            for (const Box& box : ring(mark, width, off)) {
+                const LabelPlace place = at(mark, box, avoid);
+                const double cost = off + (place.leader ? kWithLeader : 0) + (meetsAny(box, lines_) ? kOffLine : 0);
+                if (!place.placed || cost >= least) continue;
+                least = cost;
+                found = place;
+            }
+        return found;
     }
 
-    /// Whether a label can be there, and if so puts it into `place`.
-    bool suits(const Box& mark, const Box& box, Avoid avoid, LabelPlace& place) const {
-        const auto free = [&](const std::vector<Box>& others) {
-            return std::none_of(others.begin(), others.end(), [&](const Box& other) { return box.meets(other); });
-        };
+    std::vector<Box> ring(const Box& mark, double width, double off) const {
+        std::vector<Box> boxes;
+        const double above = mark.y - off - height_;
+        const double below = mark.y + mark.height + off;
+        const double right = mark.x + mark.width + off;
+        const double left = mark.x - off - width;
+        const double middle = mark.middleY() - height_ / 2;
+        for (double y : {middle, middle - off / 2, middle + off / 2, above, below})
+            for (double x : {right, left}) boxes.push_back({x, y, width, height_});
+        for (double y : {above, below})
+            for (double shift = 0; shift <= width + off; shift += kStep)
+                for (double x : {mark.middleX() - width / 2 + shift / 2, mark.middleX() - width / 2 - shift / 2})
+                    boxes.push_back({x, y, width, height_});
+        return boxes;
+    }
+
+    /// Not placed where a label cannot be.
+    LabelPlace at(const Box& mark, const Box& box, Avoid avoid) const {
+        LabelPlace place;
         const auto under = [&](const Segment& leader) { return crosses(leader, box); };
-        if (!area_.holds(box) || !free(marks_) || !free(labels_)) return false;
-        if (avoid == Avoid::all && !free(lines_)) return false;
-        if (avoid != Avoid::none && std::any_of(leaders_.begin(), leaders_.end(), under)) return false;
+        if (!area_.holds(box) || meetsAny(box, marks_) || meetsAny(box, labels_)) return place;
+        if (avoid != Avoid::none && std::any_of(leaders_.begin(), leaders_.end(), under)) return place;
         place.box = box;
         place.leaderX = std::clamp(mark.middleX(), box.x, box.x + box.width);
         place.leaderY = std::clamp(mark.middleY(), box.y, box.y + box.height);
-        const double dx = std::max({mark.x - place.leaderX, place.leaderX - mark.x - mark.width, 0.0});
-        const double dy = std::max({mark.y - place.leaderY, place.leaderY - mark.y - mark.height, 0.0});
-        place.leader = std::hypot(dx, dy) > kLeaderFrom;
-        return !place.leader || leaderSuits(mark, leaderOf(mark, place), avoid);
+        place.leader = distance(mark, box) > kLeaderFrom || !nearestTo(mark, box);
+        place.placed = !place.leader || leaderSuits(mark, leaderOf(mark, place), avoid);
+        return place;
+    }
+
+    /// Whether nobody could take the label for another mark's.
+    bool nearestTo(const Box& mark, const Box& box) const {
+        constexpr double kClearly = 2;
+        const auto closer = [&](const Box& other) {
+            const bool itself = other.x == mark.x && other.y == mark.y;
+            return !itself && distance(other, box) < distance(mark, box) + kClearly;
+        };
+        return std::none_of(marks_.begin(), marks_.end(), closer);
     }
 
     bool leaderSuits(const Box& mark, const Segment& leader, Avoid avoid) const {
         if (avoid == Avoid::none) return true;
         if (std::any_of(labels_.begin(), labels_.end(), [&](const Box& label) { return crosses(leader, label); })) return false;
         const auto inTheWay = [&](const Box& other) { return !other.meets(mark) && crosses(leader, other); };
-        return avoid != Avoid::all || std::none_of(marks_.begin(), marks_.end(), inTheWay);
+        return avoid == Avoid::labels || std::none_of(marks_.begin(), marks_.end(), inTheWay);
     }
 
     Box area_;
@@ -111,6 +137,12 @@ private:
 };
 
 }  // namespace
+
+double distance(const Box& a, const Box& b) {
+    const double dx = std::max({a.x - b.x - b.width, b.x - a.x - a.width, 0.0});
+    const double dy = std::max({a.y - b.y - b.height, b.y - a.y - a.height, 0.0});
+    return std::hypot(dx, dy);
+}
 
 std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const Box& area, double height,
                                     std::vector<Box> lines) {

@@ -19,22 +19,26 @@ struct Box {
     double middleY() const { return y + height / 2; }
 };
 
+/// Between two boxes, 0 where they meet.
+double distance(const Box& a, const Box& b);
+
 struct LabelWish {
     Box mark;               // of the point
-    double width = 0;       // of the label
+    double width = 0;       // of the label; 0: the point has none
     double shortWidth = 0;  // of what stands for it where it finds no room near its point
 };
 
 struct LabelPlace {
     Box box;
-    bool placed = false;  // false only where `area` has no room left
+    bool placed = false;  // false where none is wished for, and where `area` has no room left
     bool shortened = false;
-    bool leader = false;              // so far off that a line to the mark is needed
+    bool leader = false;              // a line to the mark is needed: it is far off, or another mark is as near
     double leaderX = 0, leaderY = 0;  // where that line ends at the box
 };
 
-/// Places labels in the order of the wishes, each as near to its mark as it can be within `area`: no two labels meet, nor does one meet a mark. Where
-/// there is room, labels keep off `lines` too, and no leader crosses a label or another mark. The same wishes have the same places.
+/// Places labels in the order of the wishes, each as near to its mark as it can be within `area`: no two labels meet, nor does one meet a mark, and a label
+/// without a leader is nearest to its own mark. Where there is room, no leader crosses a label or another mark. Labels go a little farther to keep off
+/// `lines`. The same wishes have the same places.
 std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const Box& area, double height, std::vector<Box> lines);
 
 }  // namespace cost

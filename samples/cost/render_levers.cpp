@@ -62,13 +62,13 @@ Lever numberLever(LeverKind kind, const std::string& name, const std::string& ti
 Lever depthLever(uint32_t depth) {
     constexpr uint32_t kDeepest = 255;
     Lever lever =
-        numberLever(LeverKind::depth, "depth", "Depth limit",
+        numberLever(LeverKind::depth, "depth", "Bounces",
                     {std::max(depth / 4, 1u), std::max(depth / 2, 1u), depth, std::min(depth * 2, kDeepest)}, depth, "bounce");
     return lever;
 }
 
 Lever cutoffLever(double own) {
-    Lever lever{LeverKind::cutoff, "cutoff", "Throughput cut-off", {}, 2, 3, false, ""};
+    Lever lever{LeverKind::cutoff, "cutoff", "Cut-off", {}, 2, 3, false, ""};
     for (double factor : {16.0, 4.0, 1.0, 1.0 / 8}) {
         const int share = static_cast<int>(1 / (own * factor) + 0.5);
         const std::string name = "1/" + std::to_string(share);
@@ -80,7 +80,7 @@ Lever cutoffLever(double own) {
 Lever lightLever() {
     return {LeverKind::lightSampling,
             "light_sampling",
-            "Light sampling",
+            "How light is found",
             {{"surfaces", "light found by surfaces alone", MINIRT_LIGHT_SAMPLING_SURFACES},
              {"lights", "light found by picking lights alone", MINIRT_LIGHT_SAMPLING_LIGHTS},
              {"balance", "both ways to find light, by the balance heuristic", MINIRT_LIGHT_SAMPLING_MIS_BALANCE},

@@ -1,5 +1,7 @@
 #include "report.hpp"
 
+#include "figures.hpp"
+
 namespace cost {
 
 std::string Report::nameOf(size_t measurement) const {
@@ -18,7 +20,7 @@ std::string budgetSentence(const Report& report) {
         return "Nothing fits " + limit + ": the fastest settings take " +
                number(fastestMs(report.levers, report.measurements, 1)) + " ms a sample.";
     std::string text = "Within " + limit + " fit " + choiceWords(report.levers, *report.choice) + ": measured " +
-                       number(report.choiceMs) + " ms, relMSE " + number(report.choiceRelMse) +
+                       number(report.choiceMs) + " ms, error " + number(report.choiceRelMse) +
                        " (the scene's own settings: " + number(report.measurements.front().ms.median) + " ms, " +
                        number(report.measurements.front().error.relMse) + ").";
     return text + " " + givenUpSentence(report.levers, *report.choice);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "commands.hpp"
+#include "half_time.hpp"
 #include "recommendation.hpp"
 
 namespace cost {
@@ -78,7 +80,20 @@ Json recommendationJson(const Report& report) {
             {"changes", choice != 0},
             {"measurement", choice},
             {"settings", settingsJson(report.levers, report.measurements[choice].configuration)},
-            {"commands", recommendedCommands(report)}};
+            {"commands", commandsFor(report, recommendedChoice(report))}};
+}
+
+Json choiceJson(const Report& report, const BudgetChoice& choice) {
+    Json settings = settingsJson(report.levers, choice.configuration);
+    settings["samples"] = std::to_string(choice.samples);
+    return {{"settings", settings}, {"ms", choice.ms}, {"relmse", choice.relMse}, {"commands", commandsFor(report, choice)}};
+}
+
+Json halfTimeJson(const Report& report) {
+    const HalfTime half = halfTime(report);
+    Json json = {{"sentence", halfTimeSentence(report)}, {"fits", half.fits}, {"own", choiceJson(report, half.own)}};
+    if (half.choice) json["choice"] = choiceJson(report, *half.choice);
+    return json;
 }
 
 Json budgetJson(const Report& report) {
@@ -123,6 +138,7 @@ std::string reportJson(const Report& report) {
     for (size_t i : findings(report.levers, report.comparisons))
         json["findings"].push_back(sentence(report.levers[report.comparisons[i].lever], report.comparisons[i]));
     json["recommendation"] = recommendationJson(report);
+    json["half_time"] = halfTimeJson(report);
     json["failures"] = Json::array();
     for (const Failure& f : report.failures)
         json["failures"].push_back({{"settings", settingsJson(report.levers, f.configuration)}, {"reason", f.reason}});

@@ -30,4 +30,8 @@ Spread ratioOf(const std::vector<Timing>& a, const std::vector<Timing>& b) {
     return spreadOf(ratios);
 }
 
+bool surelySlower(const Spread& slowdown, const Spread& fastest) {
+    return slowdown.median > fastest.median * (1 + kSameTime) && slowdown.lower > fastest.upper;
+}
+
 }  // namespace cost

@@ -20,4 +20,10 @@ std::vector<double> millisecondsOf(const std::vector<Timing>& timings);
 /// Of every time of `a` over every one of `b`.
 Spread ratioOf(const std::vector<Timing>& a, const std::vector<Timing>& b);
 
+/// Of the time, that is not worth a change of settings.
+constexpr double kSameTime = 0.02;
+
+/// By more than kSameTime and by more than both spread: what is the fastest by chance is then none that shuts out others.
+bool surelySlower(const Spread& slowdown, const Spread& fastest);
+
 }  // namespace cost

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
+#include "confirmation.hpp"
 #include "pareto.hpp"
-#include "recommendation.hpp"
 #include "search.hpp"
 
 namespace cost {
 namespace {
 
-// Shares of the time that bakes and pipelines leave, in the order in which they are spent; combinations get the rest.
+// Shares of the time that bakes and pipelines leave; combinations get the rest.
 constexpr double kReferenceShare = 0.25;
 constexpr double kSinglesShare = 0.5;
+constexpr double kConfirmationShare = 0.05;
 constexpr double kPixels = 256.0 * 192.0;
 constexpr double kLeastPixels = 64.0 * 48.0;
 
@@ -106,39 +106,36 @@ uint32_t chooseWork(Scenes& scenes, const BlobFacts& facts, const StudyOptions& 
 }
 
 /// Measures beside the scene's own settings again: what these took then and now tells how the device's speed has changed. What fails is left out.
-std::vector<Measurement> measureAgain(Measurer& measurer, std::vector<Configuration> configurations, const StudyOptions& options,
-                                      const Report& report) {
+std::vector<Measurement> measureAgain(Measurer& measurer, std::vector<Configuration> configurations, uint32_t repeats,
+                                      double deadline, const Report& report) {
     configurations.insert(configurations.begin(), initialConfiguration(report.levers));
-    std::vector<Measurement> found = measurer.measure(configurations, options.repeats, options.seconds);
+    std::vector<Measurement> found = measurer.measure(configurations, repeats, deadline);
     const double faster = report.measurements.front().ms.median / found.front().ms.median;
     found.erase(found.begin());
     for (Measurement& m : found) m.ms = {m.ms.median * faster, m.ms.lower * faster, m.ms.upper * faster};
     return found;
 }
 
-void addCombinations(Measurer& measurer, const StudyOptions& options, const Progress& progress, Report& report) {
+/// Ends by `deadline`, of the progress's clock.
+void addCombinations(Measurer& measurer, const StudyOptions& options, double deadline, const Progress& progress, Report& report) {
     // More samples come with some of them, and each with a blob of its own.
     const double each = report.prepareSeconds / static_cast<double>(report.pipelines) +
                         report.measurements.front().ms.median * options.repeats * 1.5 / 1000;
-    const auto fitting = static_cast<size_t>(std::max((options.seconds - progress.seconds()) / each, 0.0));
+    const auto fitting = static_cast<size_t>(std::max((deadline - progress.seconds()) / each, 0.0));
     std::vector<Configuration> configurations =
         combinations(report.levers, report.measurements, std::min(options.combinations, fitting));
     if (configurations.empty()) return;
-    for (Measurement& m : measureAgain(measurer, std::move(configurations), options, report))
+    for (Measurement& m : measureAgain(measurer, std::move(configurations), options.repeats, deadline, report))
         report.measurements.push_back(std::move(m));
 }
 
-/// The fastest of many is often so by chance: it is timed once more, and the next one takes its place where it was, while there is time.
-void confirmRecommendation(Measurer& measurer, const StudyOptions& options, const Progress& progress, Report& report) {
-    std::set<size_t> timed = {0};
-    for (size_t i = recommended(report); timed.insert(i).second; i = recommended(report)) {
-        const std::vector<Measurement> again = measureAgain(measurer, {report.measurements[i].configuration}, options, report);
-        if (again.empty()) return;
-        report.measurements[i].ms = again.front().ms;
-        report.measurements[i].slowdown = again.front().slowdown;
-        report.confirmed = recommended(report) == i;
-        if (progress.seconds() > options.seconds) return;
-    }
+void confirm(Measurer& measurer, const StudyOptions& options, const Progress& progress, Report& report) {
+    const auto again = [&](const Configuration& configuration, uint32_t rounds) -> std::optional<Measurement> {
+        const std::vector<Measurement> found = measureAgain(measurer, {configuration}, rounds, options.seconds, report);
+        return found.empty() ? std::nullopt : std::optional(found.front());
+    };
+    confirmRecommendation(
+        again, options.repeats, [&] { return options.seconds - progress.seconds(); }, report);
 }
 
 /// Chooses, and measures what was chosen.
@@ -187,13 +184,11 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.measurements =
         measurer.measure(oneAtATime(report.levers), options.repeats, start + left * (kReferenceShare + kSinglesShare));
     report.singles = report.measurements.size();
-    addCombinations(measurer, options, progress, report);
+    addCombinations(measurer, options, start + left * (1 - kConfirmationShare), progress, report);
     report.reference = measurer.reference();
-    confirmRecommendation(measurer, options, progress, report);
+    confirm(measurer, options, progress, report);
 
-    std::vector<Tradeoff> points;
-    for (const Measurement& m : report.measurements) points.push_back({m.ms.median, m.error.relMse});
-    report.front = paretoFront(points);
+    report.front = surelyOnFront(report.measurements);
     const std::vector<Measurement> singles(report.measurements.begin(),
                                            report.measurements.begin() + static_cast<ptrdiff_t>(report.singles));
     report.comparisons = compareLevers(report.levers, singles, static_cast<double>(report.sceneSamples) / samples);

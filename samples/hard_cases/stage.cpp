@@ -74,7 +74,7 @@ minirtc::Choices Stage::choicesFor(const minirtc::PreparedScene& scene) const {
     const minirtc::EffectSet effects = minirtc::chooseVariant(scene, kIntegrators, {}).effects;
     minirtc::Choices choices;
     for (const auto& [lever, setting] : levers_)
-        if (minirtc::applies(minirtc::findLever(lever), effects).applies) choices.levers[lever] = setting;
+        if (minirtc::applies(minirtc::findLever(lever), effects, kIntegrators).applies) choices.levers[lever] = setting;
     return choices;
 }
 

@@ -1,0 +1,39 @@
+#include "figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace cost {
+namespace {
+
+std::string fixed(double value, int decimals) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+std::string significant(double value, int digits) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    return text;
+}
+
+}  // namespace
+
+std::string percent(double share) {
+    const double value = share * 100;
+    const double size = std::abs(value);
+    if (size > 0 && size < 0.01) return "under 0.01 %";
+    if (size > 99.99 && size < 100) return "over 99.99 %";
+    if (size > 99 && size < 100) return significant(value, size > 99.9 ? 4 : 3) + " %";
+    return (size < 9.95 ? significant(value, 2) : fixed(value, 0)) + " %";
+}
+
+std::string number(double value) {
+    if (value == 0) return "0";
+    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    return magnitude < -4 ? significant(value, 2) : fixed(value, std::max(2 - magnitude, 0));
+}
+
+}  // namespace cost

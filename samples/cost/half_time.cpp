@@ -1,0 +1,96 @@
+#include "half_time.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "commands.hpp"
+#include "figures.hpp"
+#include "recommendation.hpp"
+
+namespace cost {
+namespace {
+
+/// With as many samples as the scene's own settings.
+std::vector<const Measurement*> atOwnSamples(const Report& report) {
+    const size_t samples = findLever(report.levers, LeverKind::samples);
+    std::vector<const Measurement*> found;
+    for (const Measurement& m : report.measurements)
+        if (m.configuration[samples] == report.levers[samples].initial) found.push_back(&m);
+    return found;
+}
+
+const Measurement& quickest(const std::vector<const Measurement*>& measurements) {
+    const auto quicker = [](const Measurement* a, const Measurement* b) { return a->slowdown.median < b->slowdown.median; };
+    return **std::min_element(measurements.begin(), measurements.end(), quicker);
+}
+
+/// Of those that surely save time and are not surely slower than the fastest, the most accurate.
+std::optional<BudgetChoice> surelyFastest(const Report& report) {
+    std::vector<const Measurement*> faster = atOwnSamples(report);
+    const auto drop = [&](const auto& slow) { faster.erase(std::remove_if(faster.begin(), faster.end(), slow), faster.end()); };
+    drop([](const Measurement* m) { return m->slowdown.upper >= 1; });
+    if (faster.empty()) return std::nullopt;
+    const Spread first = quickest(faster).slowdown;
+    drop([&](const Measurement* m) { return surelySlower(m->slowdown, first); });
+    const auto better = [](const Measurement* a, const Measurement* b) { return a->error.relMse < b->error.relMse; };
+    return expected(report.levers, report.measurements, **std::min_element(faster.begin(), faster.end(), better),
+                    report.sceneSamples);
+}
+
+/// By the levers of a measured configuration; not by its samples.
+double moreWrongPixels(const Report& report, const Configuration& configuration) {
+    const size_t samples = findLever(report.levers, LeverKind::samples);
+    const Measurement& own = report.measurements.front();
+    if (with(configuration, samples, own.configuration[samples]) == own.configuration) return 0;
+    const auto measured = [&](const Measurement& m) { return m.configuration == configuration; };
+    const auto found = std::find_if(report.measurements.begin(), report.measurements.end(), measured);
+    return found->sameSamples.wrongPixels - own.sameSamples.wrongPixels;
+}
+
+std::string errorChange(double from, double to) {
+    if (number(from) == number(to)) return "the error stays at " + number(from);
+    return std::string("the error ") + (to > from ? "rises" : "falls") + " from " + number(from) + " to " + number(to);
+}
+
+/// A setting more accurate than the scene's own looks fast by chance alone.
+std::string noneFasterSentence(const Report& report) {
+    const Measurement& own = report.measurements.front();
+    std::vector<const Measurement*> cheaper = atOwnSamples(report);
+    const auto finer = [&](const Measurement* m) {
+        return !std::equal(m->configuration.begin(), m->configuration.end(), own.configuration.begin(), std::less_equal<>());
+    };
+    cheaper.erase(std::remove_if(cheaper.begin(), cheaper.end(), finer), cheaper.end());
+    const Measurement& m = quickest(cheaper);
+    if (m.slowdown.median >= 1) return "Nothing that was measured halves the time, or takes less at all.";
+    return "Nothing that was measured halves the time, or surely saves any. What looks the fastest is " +
+           changesInWords(report, {m.configuration, report.sceneSamples, 0, 0}) + ": " + percent(1 - m.slowdown.median) +
+           " less time, which may be chance, and " + errorChange(own.error.relMse, m.error.relMse) + ".";
+}
+
+}  // namespace
+
+HalfTime halfTime(const Report& report) {
+    HalfTime half;
+    half.own = expected(report.levers, report.measurements, report.measurements.front(), report.sceneSamples);
+    half.choice = chooseWithin(half.own.ms / 2, report.levers, report.measurements, 1);
+    half.fits = half.choice.has_value();
+    if (!half.fits) half.choice = surelyFastest(report);
+    const BudgetChoice advice = recommendedChoice(report);
+    half.advised = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
+    if (half.choice) half.wrongPixels = moreWrongPixels(report, half.choice->configuration);
+    return half;
+}
+
+std::string halfTimeSentence(const Report& report) {
+    const HalfTime half = halfTime(report);
+    if (!half.choice) return noneFasterSentence(report);
+    if (half.advised) return "This halves the time already.";
+    std::string text = half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. The fastest is ";
+    text += changesInWords(report, *half.choice) + ": " + percent(1 - half.choice->ms / half.own.ms) + " less time, and " +
+            errorChange(half.own.relMse, half.choice->relMse);
+    if (report.samples() < report.sceneSamples) text += ", as expected at the scene's own samples";
+    if (half.wrongPixels > kNoticeablePixels) text += "; with it " + percent(half.wrongPixels) + " of the pixels look wrong";
+    return text + ".";
+}
+
+}  // namespace cost
