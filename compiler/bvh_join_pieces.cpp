@@ -12,7 +12,9 @@ namespace {
 struct Joining {
     double growth;  // of all areas
     uint32_t piece, other;
-    bool operator<(const Joining& b) const { return growth != b.growth ? growth > b.growth : piece > b.piece; }  // the best comes first
+    bool operator<(const Joining& b) const {
+        return growth != b.growth ? growth > b.growth : piece > b.piece;
+    }  // the best comes first
 };
 
 class Joiner {
@@ -28,27 +30,22 @@ private:
 
     LinkedTree& tree_;
     std::unordered_map<uint32_t, std::vector<uint32_t>> leavesOf_;  // of primitives with several, one primitive a leaf
-    std::vector<Joining> heap_;  // what joining took when it was looked at
+    std::vector<Joining> heap_;                                     // what joining took when it was looked at
 };
 
-Box joined(Box a, const Box& b) {
-    a.grow(b);
-    return a;
-}
-
 Joiner::Joiner(LinkedTree& tree) : tree_(tree) {
-    std::vector<std::pair<uint32_t, uint32_t>> leaves;  // primitive, leaf
-    for (uint32_t i = 0; i < tree.size(); ++i)
-        if (tree[i].isLeaf() && tree[i].child[1] == 1 && tree[i].parent != kNoNode) leaves.emplace_back(tree.primitive(i), i);
-    std::sort(leaves.begin(), leaves.end());
-    for (size_t i = 0; i < leaves.size(); ++i) {
-        const bool hasSibling = (i > 0 && leaves[i - 1].first == leaves[i].first) ||
-                                (i + 1 < leaves.size() && leaves[i + 1].first == leaves[i].first);
-        if (hasSibling) leavesOf_[leaves[i].first].push_back(leaves[i].second);
+    std::vector<uint32_t> leaves, count;  // of each primitive
+    for (uint32_t i = 0; i < tree.size(); ++i) {
+        if (!tree[i].isLeaf() || tree[i].child[1] != 1 || tree[i].parent == kNoNode) continue;
+        leaves.push_back(i);
+        count.resize(std::max<size_t>(count.size(), tree.primitive(i) + 1));
+        ++count[tree.primitive(i)];
     }
-    for (const auto& [primitive, leaf] : leaves)
-        if (leavesOf_.count(primitive))
-            if (const std::optional<Joining> joining = joiningOf(leaf)) heap_.push_back(*joining);
+    const auto isWhole = [&](uint32_t leaf) { return count[tree.primitive(leaf)] == 1; };
+    leaves.erase(std::remove_if(leaves.begin(), leaves.end(), isWhole), leaves.end());
+    for (const uint32_t leaf : leaves) leavesOf_[tree.primitive(leaf)].push_back(leaf);
+    for (const uint32_t leaf : leaves)
+        if (const std::optional<Joining> joining = joiningOf(leaf)) heap_.push_back(*joining);
     std::make_heap(heap_.begin(), heap_.end());
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr uint32_t kParts = 2;  // of a sweep over all nodes: the moves of one are made before those of the next are sought
 constexpr uint32_t kMostSweeps = 8;
-constexpr double kLeastImprovement = 5e-4;  // of the cost by a sweep, or it is not worth another
+constexpr double kLeastImprovement = 8e-4;  // of the cost by a sweep, or it is not worth another
 constexpr uint32_t kMostPlaces = 100;  // that a search looks at: enough for surfaces; where everything overlaps it would be all
 constexpr uint32_t kChunkSize = 256;   // nodes that a thread takes at once
 
@@ -17,11 +17,6 @@ struct Move {
     uint32_t target = kNoNode;  // becomes the sibling
     bool operator<(const Move& other) const { return gain != other.gain ? gain > other.gain : node < other.node; }
 };
-
-Box joined(Box a, const Box& b) {
-    a.grow(b);
-    return a;
-}
 
 /// `gain`: what leaving gains. Boxes around a place grow, and its new parent costs at least the area of the node: where that is too much
 /// already, nothing below is better.

@@ -160,7 +160,8 @@ int wholeSide(const Ref& ref, float penalty, Plane& plane) {
     for (int i = 0; i < 2; ++i) {
         box[i].grow(ref);
         const int other = 1 - i;
-        cost[i] = plane.size[other] > 1 ? costOf(box[i], plane.size[i]) + costOf(plane.box[other], plane.size[other] - 1) : kInfinity;
+        cost[i] =
+            plane.size[other] > 1 ? costOf(box[i], plane.size[i]) + costOf(plane.box[other], plane.size[other] - 1) : kInfinity;
     }
     const int side = cost[1] < cost[0];
     if (!(cost[side] < costOf(plane.box[0], plane.size[0]) + costOf(plane.box[1], plane.size[1]) + penalty)) return -1;
@@ -190,7 +191,8 @@ Halves divide(const Geometry& geometry, const Range& range, float penalty, Plane
         }
     }
     Ref* const end = range.spare + range.slots();
-    const Halves halves = placeHalves(range, static_cast<uint32_t>(front - range.spare), box[0], static_cast<uint32_t>(end - back), box[1]);
+    const Halves halves =
+        placeHalves(range, static_cast<uint32_t>(front - range.spare), box[0], static_cast<uint32_t>(end - back), box[1]);
     std::copy(back, end, halves.half[1].refs);
     return halves;
 }

@@ -32,6 +32,11 @@ struct Box {
     float center2(int axis) const { return lo[axis] + hi[axis]; }
 };
 
+inline Box joined(Box a, const Box& b) {
+    a.grow(b);
+    return a;
+}
+
 /// The box of a primitive. The idle lanes hold the halves of the primitive's number, so they may pass through arithmetic.
 struct Ref : Box {
     Ref() = default;
