@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace minirtc {
 namespace {
@@ -51,14 +52,12 @@ void boundSides(const Primitive& triangle, int axis, float plane, Box (&side)[2]
     }
 }
 
-/// Boxes of what of a ref lies on either side of a plane through its box: its share of the box, or less for a triangle.
+/// Boxes of what of a triangle's piece lies on either side of a plane through its box.
 void cut(const Geometry& geometry, const Ref& ref, int axis, float plane, Ref (&piece)[2]) {
+    Box side[2];
+    boundSides(geometry.primitives[ref.primitive()], axis, plane, side);
     piece[0] = piece[1] = ref;
     piece[0].hi[axis] = piece[1].lo[axis] = plane;
-    const Primitive& primitive = geometry.primitives[ref.primitive()];
-    if (primitive.isSphere) return;
-    Box side[2];
-    boundSides(primitive, axis, plane, side);
     for (int i = 0; i < 2; ++i) {
         Ref smallest = piece[i];  // keeps the number, in the idle lanes
         for (int k = 0; k < 3; ++k) {
@@ -67,6 +66,15 @@ void cut(const Geometry& geometry, const Ref& ref, int axis, float plane, Ref (&
         }
         if (!isEmpty(smallest)) piece[i] = smallest;
     }
+}
+
+/// A sphere stays whole, on the side of its centre.
+bool isSphere(const Geometry& geometry, const Ref& ref) {
+    return geometry.primitives[ref.primitive()].isSphere;
+}
+
+float centerOf(const Ref& ref, int axis) {
+    return 0.5f * ref.center2(axis);
 }
 
 /// Planes at equal distances along an axis, and what lies between them.
@@ -87,26 +95,27 @@ struct Slabs {
     }
     bool areThere() const { return std::isfinite(width) && std::isfinite(perWidth); }
     float plane(uint32_t slab) const { return origin + width * static_cast<float>(slab); }
+    /// But for rounding.
     uint32_t near(float x) const {
         const float position = (x - origin) * perWidth;
         return std::min(static_cast<uint32_t>(position > 0 ? position : 0), count - 1);
     }
-    uint32_t firstOf(const Ref& ref) const {
-        const float x = ref.lo[axis];
+    /// So that a plane i is above `x` where, and only where, i > firstAt(x), and below it where i <= lastAt(x).
+    uint32_t firstAt(float x) const {
         uint32_t slab = near(x);
         while (slab > 0 && x < plane(slab)) --slab;
         while (slab + 1 < count && !(x < plane(slab + 1))) ++slab;
         return slab;
     }
-    uint32_t lastOf(const Ref& ref) const {
-        const float x = ref.hi[axis];
+    uint32_t lastAt(float x) const {
         uint32_t slab = near(x);
         while (slab > 0 && !(x > plane(slab))) --slab;
         while (slab + 1 < count && x > plane(slab + 1)) ++slab;
-        return std::max(slab, firstOf(ref));
+        return slab;
     }
     void add(const Geometry& geometry, const Ref& ref) {
-        const uint32_t from = firstOf(ref), to = lastOf(ref);
+        uint32_t from = firstAt(ref.lo[axis]), to = std::max(from, lastAt(ref.hi[axis]));
+        if (from < to && isSphere(geometry, ref)) from = to = firstAt(centerOf(ref, axis));
         Ref rest = ref;
         for (uint32_t i = from; i < to; ++i) {
             if (!(rest.lo[axis] < plane(i + 1) && plane(i + 1) < rest.hi[axis])) continue;
@@ -182,6 +191,8 @@ Halves divide(const Geometry& geometry, const Range& range, float penalty, Plane
         const Ref& ref = range.refs[i];
         if (!(ref.lo[plane.axis] < plane.position && plane.position < ref.hi[plane.axis])) {
             put(ref.lo[plane.axis] < plane.position ? 0 : 1, ref);
+        } else if (isSphere(geometry, ref)) {
+            put(centerOf(ref, plane.axis) < plane.position ? 0 : 1, ref);
         } else if (const int side = wholeSide(ref, penalty, plane); side >= 0) {
             put(side, ref);
         } else {
@@ -193,7 +204,7 @@ Halves divide(const Geometry& geometry, const Range& range, float penalty, Plane
     Ref* const end = range.spare + range.slots();
     const Halves halves =
         placeHalves(range, static_cast<uint32_t>(front - range.spare), box[0], static_cast<uint32_t>(end - back), box[1]);
-    std::copy(back, end, halves.half[1].refs);
+    std::memmove(halves.half[1].refs, back, halves.half[1].size * sizeof(Ref));
     return halves;
 }
 

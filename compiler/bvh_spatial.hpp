@@ -12,7 +12,7 @@ struct SpatialTerms {
 
 /// Replaces `halves`, those of the best split of whole refs, by ones that a plane parts, where that costs less [Stich, Friedrich and Dietrich
 /// 2009, "Spatial Splits in Bounding Volume Hierarchies"]: triangles that cross it get a piece on each side, or go to one side whole where that
-/// costs less. Makes no more pieces than there is room for. A pure function of its input.
+/// costs less; spheres stay whole. Makes no more pieces than there is room for. A pure function of its input.
 void splitSpatially(const Geometry& geometry, const Range& range, const SpatialTerms& terms, Halves& halves);
 
 }  // namespace minirtc
