@@ -53,7 +53,7 @@ Aabb bounds(const Primitive& primitive);
 /// in two directions, as no random ray meets it.
 double sahCost(const Bvh& bvh);
 
-/// Fast: binned SAH. High: triangles that fill little of their boxes are split where that makes a better tree, then subtrees are moved to where
+/// Fast: binned SAH. High: nodes whose halves would overlap are split at planes, with the triangles that cross them, then subtrees are moved to where
 /// they cost less, which takes ten times as long or more.
 enum class BvhQuality { fast, high };
 
