@@ -53,11 +53,14 @@ Aabb bounds(const Primitive& primitive);
 /// in two directions, as no random ray meets it.
 double sahCost(const Bvh& bvh);
 
-/// Fast: binned SAH. High: triangles that fill little of their boxes are split where that makes a better tree, then subtrees are moved to where
+/// Fast: binned SAH. High: nodes whose halves would overlap are split at planes, with the triangles that cross them, then subtrees are moved to where
 /// they cost less, which takes ten times as long or more.
 enum class BvhQuality { fast, high };
 
-/// Of primitives (48 each) and 16-bit nodes (32 each) together, for each primitive: triangles are split no more often than keeps them below.
+/// Of what a leaf holds of a primitive (48 each) and of 16-bit nodes (32 each).
+double bytesOf(size_t references, size_t nodes);
+
+/// For each primitive, by bytesOf: triangles are split no more often than keeps them below.
 constexpr double kBytesEach = 70;
 
 /// On `threads` threads (0: all cores). The tree does not depend on the number of threads. A primitive that was split is found by every ray that meets

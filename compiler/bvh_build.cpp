@@ -7,6 +7,7 @@
 #include <new>
 #include <type_traits>
 
+#include "bvh_join_pieces.hpp"
 #include "bvh_reinsert.hpp"
 #include "bvh_spatial.hpp"
 #include "bvh_split.hpp"
@@ -18,6 +19,10 @@ namespace {
 constexpr uint32_t kChunkSize = 8192;     // primitives that a thread takes at once
 constexpr uint32_t kMinTaskSize = 1024;   // a smaller subtree is not worth a task of its own
 constexpr uint32_t kTasksPerThread = 16;  // so that tasks of unequal cost still end together
+
+// Of splits into pieces, in half areas of the scene.
+constexpr float kLeastOverlap = 2e-3f;  // of the halves
+constexpr float kLeastGain = 2;         // of a tree that has one piece more for each primitive
 
 /// Room for elements that begin to live when they are written: its pages are first touched by the thread that needs them.
 template <typename T>
@@ -49,9 +54,9 @@ struct Subtree {
 
 class Builder {
 public:
-    /// Over `pieces`, or where there are none over whole primitives. `joinsLeaves`: where that is cheaper; else leaves are of one piece each as far
-    /// as the bound of the depth allows.
-    Builder(const Geometry& geometry, std::vector<Piece> pieces, ThreadPool& pool, bool joinsLeaves);
+    /// `room`: for so many pieces more than primitives. `joinsLeaves`: where that is cheaper; else leaves are of one piece each as far as the bound of
+    /// the depth allows.
+    Builder(const Geometry& geometry, uint32_t room, ThreadPool& pool, bool joinsLeaves);
     Bvh build();
 
 private:
@@ -63,11 +68,10 @@ private:
     void makeNode(const Subtree& subtree, const Halves& halves, Subtree (&children)[2]);
     void compact(Bvh& bvh) const;
 
-    Ref refAt(uint32_t i) const;
-
     const Geometry& geometry_;
-    const std::vector<Piece> pieces_;
     const uint32_t size_;
+    const uint32_t slots_;
+    SpatialTerms terms_;
     ThreadPool& pool_;
     const bool joinsLeaves_;
     const uint32_t taskSize_;
@@ -98,36 +102,33 @@ bool fit(const Halves& halves, uint32_t levels) {
     return fits(halves.half[0].size, levels) && fits(halves.half[1].size, levels);
 }
 
-Builder::Builder(const Geometry& geometry, std::vector<Piece> pieces, ThreadPool& pool, bool joinsLeaves)
+Builder::Builder(const Geometry& geometry, uint32_t room, ThreadPool& pool, bool joinsLeaves)
     : geometry_(geometry),
-      pieces_(std::move(pieces)),
-      size_(static_cast<uint32_t>(pieces_.empty() ? geometry.primitives.size() : pieces_.size())),
+      size_(static_cast<uint32_t>(geometry.primitives.size())),
+      slots_(size_ + room),
       pool_(pool),
       joinsLeaves_(joinsLeaves),
       taskSize_(pool_.size() == 1 ? size_ : std::max(kMinTaskSize, size_ / (kTasksPerThread * pool_.size()))),
-      refs_(size_),
-      spare_(size_),
-      nodes_(size_),
-      used_(size_),
-      order_(size_) {}
-
-Ref Builder::refAt(uint32_t i) const {
-    return pieces_.empty() ? Ref(bounds(geometry_.primitives[i]), i) : Ref(pieces_[i].box, pieces_[i].primitive);
-}
+      refs_(slots_),
+      spare_(slots_),
+      nodes_(slots_),
+      used_(slots_),
+      order_(slots_) {}
 
 Bvh Builder::build() {
     std::vector<Box> boxes(chunks(size_), Box::empty());
     pool_.parallelFor(boxes.size(), [&](size_t chunk) {
         for (uint32_t i = static_cast<uint32_t>(chunk) * kChunkSize; i < chunkEnd(size_, chunk); ++i) {
-            refs_.begin(i) = refAt(i);
+            refs_.begin(i) = Ref(bounds(geometry_.primitives[i]), i);
             boxes[chunk].grow(refs_[i]);
         }
     });
     Box box = Box::empty();
     for (const Box& b : boxes) box.grow(b);
 
+    terms_ = {kLeastOverlap * box.halfArea(), kLeastGain * box.halfArea() / static_cast<float>(size_)};
     BvhChild root;
-    buildTop({{refs_.data(), spare_.data(), size_, box}, 0, 0, kMaxDepth, &root});
+    buildTop({{refs_.data(), spare_.data(), size_, slots_ - size_, box}, 0, 0, kMaxDepth, &root});
     pool_.parallelFor(tasks_.size(), [&](size_t i) { buildSubtree(tasks_[i]); });
 
     Bvh bvh;
@@ -149,7 +150,9 @@ void Builder::buildTop(const Subtree& subtree) {
         return;
     }
     Halves halves;
-    if (!splitParallel(subtree.range, halves) || !fit(halves, subtree.levels - 1)) halves = splitMedian(subtree.range);
+    const bool found = splitParallel(subtree.range, halves);
+    if (found) splitSpatially(geometry_, subtree.range, terms_, halves);
+    if (!found || !fit(halves, subtree.levels - 1)) halves = splitMedian(subtree.range);
     Subtree children[2];
     makeNode(subtree, halves, children);
     buildTop(children[0]);
@@ -172,14 +175,14 @@ bool Builder::splitParallel(const Range& range, Halves& halves) {
     const Split split = bestSplit(sum, grid);
     if (split.firstSize == 0) return false;
 
+    halves = placeHalves(range, sum, grid, split);
     std::vector<uint32_t> firstBelow(n + 1);  // primitives of the first half in the chunks before
     for (uint32_t i = 0; i < n; ++i) firstBelow[i + 1] = firstBelow[i] + bins[i].sizeBelow(split.axis, split.bin);
     pool_.parallelFor(n, [&](size_t i) {
         const uint32_t secondBelow = static_cast<uint32_t>(i) * kChunkSize - firstBelow[i];
-        partition(grid, split, range.refs + i * kChunkSize, sizeOf(i), range.spare + firstBelow[i],
-                  range.spare + split.firstSize + secondBelow);
+        partition(grid, split, range.refs + i * kChunkSize, sizeOf(i), halves.half[0].refs + firstBelow[i],
+                  halves.half[1].refs + secondBelow);
     });
-    halves = halvesAfter(range, sum, grid, split);
     return true;
 }
 
@@ -193,6 +196,7 @@ float Builder::buildSubtree(const Subtree& subtree) {
     }
     Halves halves;
     const bool found = range.size <= kMaxSweepSize ? splitSwept(range, halves) : splitBinned(range, halves);
+    if (found) splitSpatially(geometry_, range, terms_, halves);
     if (!found || !fit(halves, subtree.levels - 1)) halves = splitMedian(range);
     Subtree children[2];
     makeNode(subtree, halves, children);
@@ -211,13 +215,13 @@ void Builder::makeLeaf(const Subtree& subtree) {
 
 /// Makes a leaf of a finished subtree.
 void Builder::collapse(const Subtree& subtree) {
-    std::fill_n(used_.begin() + subtree.node, subtree.range.size - 1, uint8_t{0});
+    std::fill_n(used_.begin() + subtree.node, subtree.range.slots() - 1, uint8_t{0});
     *subtree.reference = {toAabb(subtree.range.box), subtree.first, subtree.range.size};
 }
 
 void Builder::makeNode(const Subtree& subtree, const Halves& halves, Subtree (&children)[2]) {
     BvhNode& node = nodes_.begin(subtree.node);
-    const uint32_t n = halves.half[0].size;
+    const uint32_t n = halves.half[0].slots();
     children[0] = {halves.half[0], subtree.first, subtree.node + 1, subtree.levels - 1, &node.child[0]};
     children[1] = {halves.half[1], subtree.first + n, subtree.node + n, subtree.levels - 1, &node.child[1]};
     used_[subtree.node] = 1;
@@ -226,14 +230,14 @@ void Builder::makeNode(const Subtree& subtree, const Halves& halves, Subtree (&c
 
 /// Copies the nodes in use, closing the gaps between subtrees.
 void Builder::compact(Bvh& bvh) const {
-    std::vector<uint32_t> place(size_);
+    std::vector<uint32_t> place(slots_);
     uint32_t count = 0;
-    for (uint32_t i = 0; i < size_; ++i) {
+    for (uint32_t i = 0; i < slots_; ++i) {
         place[i] = count;
         count += used_[i];
     }
     bvh.nodes.reserve(count);
-    for (uint32_t i = 0; i < size_; ++i) {
+    for (uint32_t i = 0; i < slots_; ++i) {
         if (!used_[i]) continue;
         bvh.nodes.push_back(nodes_[i]);
         for (BvhChild& child : bvh.nodes.back().child)
@@ -252,32 +256,19 @@ void measure(Bvh& bvh) {
     bvh.sahCost = sahCost(bvh);
 }
 
-double bytesOf(const Bvh& bvh) {
-    return 48 * static_cast<double>(bvh.order.size()) + 32 * static_cast<double>(bvh.nodes.size());
+/// How many pieces to make room for, before those are given up that do not pay.
+uint32_t roomForPieces(const Bvh& whole, double mostBytes) {
+    return bytesOf(whole.order.size(), whole.nodes.size()) < mostBytes ? static_cast<uint32_t>(whole.order.size()) : 0;
 }
 
-/// How many more pieces than primitives, as a share of these, should keep a tree like `whole` below so many bytes a primitive.
-double roomForPieces(const Bvh& whole, double bytesEach) {
-    constexpr double kUsed = 0.8;  // a piece can take more of a node than a primitive does
-    return kUsed * (bytesEach * static_cast<double>(whole.order.size()) / bytesOf(whole) - 1);
-}
-
-Bvh buildHigh(const Geometry& geometry, std::vector<Piece> pieces, ThreadPool& pool) {
-    Bvh bvh = reinsertSubtrees(Builder(geometry, std::move(pieces), pool, false).build(), pool);
+Bvh buildHigh(const Geometry& geometry, uint32_t room, double mostBytes, ThreadPool& pool) {
+    LinkedTree tree(Builder(geometry, room, pool, false).build());
+    if (room > 0) joinPieces(tree, mostBytes);
+    reinsertSubtrees(tree, pool);
+    if (room > 0) joinPieces(tree, mostBytes);  // moves change which subtrees become leaves
+    Bvh bvh = tree.toBvh();
     measure(bvh);
     return bvh;
-}
-
-/// Pieces that make a better tree than `whole`; empty where they hardly do. Leaves are joined for the comparison: where whole primitives share
-/// leaves, pieces cost more than it seems without.
-std::vector<Piece> worthwhilePieces(const Geometry& geometry, const Bvh& whole, double bytesEach, ThreadPool& pool) {
-    constexpr double kWorthwhile = 0.99;
-    const double room = roomForPieces(whole, bytesEach);
-    std::vector<Piece> pieces;
-    if (room > 0) pieces = splitPrimitives(geometry, room, pool);
-    if (!pieces.empty() && !(sahCost(Builder(geometry, pieces, pool, true).build()) < kWorthwhile * whole.sahCost))
-        pieces.clear();
-    return pieces;
 }
 
 double halfArea(const Aabb& box) {
@@ -319,16 +310,21 @@ double sahCost(const Bvh& bvh) {
     return halfArea(root) > 0 ? cost / halfArea(root) : 0;
 }
 
+double bytesOf(size_t references, size_t nodes) {
+    return 48 * static_cast<double>(references) + 32 * static_cast<double>(nodes);
+}
+
 Bvh buildBvh(const Geometry& geometry, unsigned threads, BvhQuality quality, double bytesEach) {
     const auto start = std::chrono::steady_clock::now();
     if (geometry.primitives.empty()) return {};
     ThreadPool pool(threads);
-    Bvh bvh = Builder(geometry, {}, pool, true).build();
+    Bvh bvh = Builder(geometry, 0, pool, true).build();
     measure(bvh);
     if (quality == BvhQuality::high && geometry.primitives.size() > kMaxLeafSize) {
-        Bvh better = buildHigh(geometry, worthwhilePieces(geometry, bvh, bytesEach, pool), pool);
-        if (better.order.size() > bvh.order.size() && bytesOf(better) > bytesEach * static_cast<double>(bvh.order.size()))
-            better = buildHigh(geometry, {}, pool);
+        const double mostBytes = bytesEach * static_cast<double>(bvh.order.size());
+        Bvh better = buildHigh(geometry, roomForPieces(bvh, mostBytes), mostBytes, pool);
+        if (better.order.size() > bvh.order.size() && bytesOf(better.order.size(), better.nodes.size()) > mostBytes)
+            better = buildHigh(geometry, 0, mostBytes, pool);
         if (better.sahCost < bvh.sahCost) bvh = std::move(better);  // but where the bound of the depth leaves no room
     }
     bvh.buildMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

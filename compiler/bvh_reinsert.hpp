@@ -1,14 +1,14 @@
 // Moves subtrees of a finished hierarchy to where they cost less.
 #pragma once
-#include "bvh.hpp"
+#include "bvh_links.hpp"
 #include "parallel.hpp"
 
 namespace minirtc {
 
-/// The hierarchy after rounds in which the best new place of each node is found in parallel [Meister and Bittner 2018, "Parallel
-/// Reinsertion for Bounding Volume Hierarchy Optimization"] and the moves are made one after the other, the best first, each only where
-/// it lowers the cost by then: no locks, and the same tree on any number of threads. Leaves are joined at the end where that is no dearer;
-/// best given with one primitive each. No path gets longer than kMaxDepth. `bvh` has at least one node with two children.
-Bvh reinsertSubtrees(const Bvh& bvh, ThreadPool& pool);
+/// In sweeps: the best new places of half of the nodes are found in parallel [Meister and Bittner 2018, "Parallel Reinsertion for Bounding Volume
+/// Hierarchy Optimization"] and the moves are made one after the other, the best first, each only where it lowers the cost by then: no
+/// locks, and the same tree on any number of threads. A sweep tries what has changed since the one before; where that wins little the next one
+/// tries all. No path gets longer than kMaxDepth.
+void reinsertSubtrees(LinkedTree& tree, ThreadPool& pool);
 
 }  // namespace minirtc

@@ -2,162 +2,230 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace minirtc {
 namespace {
 
-constexpr uint32_t kChunkSize = 8192;        // primitives that a thread takes at once
-constexpr int kGridBits = 20;                // planes to cut at: the halves, quarters, ... of the scene
-constexpr float kLeastGain = 0.1f;           // of a cut, in mean areas of the primitives' boxes
-constexpr double kLeastPieces = 1.0 / 1024;  // a primitive, or another build is not worth it
+constexpr uint32_t kMostBins = 16;
 
-/// Two boxes in place of one.
-struct Cut {
-    float worth = 0;  // the half area that it saves, times the square of the plane's spacing
-    Aabb side[2];
-};
-
-/// Spacing: between planes as coarse as it, of the scene. Coarse planes are where the builder divides all that is there.
-struct Plane {
-    float position;
-    float spacing;
-};
-
-/// The coarsest plane of the grid that runs through the box, if any.
-bool planeThrough(const Aabb& scene, const Aabb& box, int axis, Plane& plane) {
-    const double origin = static_cast<double>(scene.lo[axis]);
-    const double cell = (static_cast<double>(scene.hi[axis]) - origin) / (1 << kGridBits);
-    if (!(cell > 0)) return false;
-    const auto first = static_cast<uint32_t>((static_cast<double>(box.lo[axis]) - origin) / cell);
-    const auto last = static_cast<uint32_t>((static_cast<double>(box.hi[axis]) - origin) / cell);
-    uint32_t below = first ^ last;  // becomes the bits below the first one in which they differ
-    for (uint32_t shift = 1; shift < 32; shift *= 2) below |= below >> shift;
-    plane.position = static_cast<float>(origin + cell * (last & ~(below >> 1)));
-    plane.spacing = static_cast<float>(below + 1) / (1 << kGridBits);
-    return box.lo[axis] < plane.position && plane.position < box.hi[axis];
+Float4 smaller(const Float4& a, const Float4& b) {
+    return a < b ? a : b;
 }
 
-/// The smallest box of floats with the point in it: one step more than rounding takes.
-void growAround(Aabb& box, const glm::dvec3& point) {
-    for (int i = 0; i < 3; ++i) {
-        const auto nearest = static_cast<float>(point[i]);
-        box.lo[i] = std::min(box.lo[i], std::nextafter(nearest, -INFINITY));
-        box.hi[i] = std::max(box.hi[i], std::nextafter(nearest, INFINITY));
-    }
+Float4 larger(const Float4& a, const Float4& b) {
+    return a > b ? a : b;
 }
 
-/// Of a triangle's parts on either side of a plane, as far as they lie in `box`.
-void boxesOfSides(const Primitive& triangle, const Aabb& box, int axis, float plane, Aabb (&side)[2]) {
-    side[0] = side[1] = Aabb();
+Float4 toFloat4(const glm::vec3& p) {
+    return Float4{p.x, p.y, p.z, 0};
+}
+
+Box intersection(const Box& a, const Box& b) {
+    return {larger(a.lo, b.lo), smaller(a.hi, b.hi)};
+}
+
+/// Of three lanes.
+bool isEmpty(const Box& box) {
+    return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];
+}
+
+/// Around the point between `a` and `b` on a plane, by more than rounding can take.
+Box aroundCrossing(const Float4& a, const Float4& b, int axis, float plane) {
+    constexpr float kRounding = 0x1p-20f;
+    const Float4 point = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
+    const Float4 error = larger(larger(a, -a), larger(b, -b)) * kRounding + std::numeric_limits<float>::min();
+    return {point - error, point + error};
+}
+
+/// Around what of a triangle lies on either side of a plane.
+void boundSides(const Primitive& triangle, int axis, float plane, Box (&side)[2]) {
+    side[0] = side[1] = Box::empty();
+    const Float4 corner[3] = {toFloat4(triangle.p[0]), toFloat4(triangle.p[1]), toFloat4(triangle.p[2])};
     for (int i = 0; i < 3; ++i) {
-        const glm::vec3 &a = triangle.p[i], &b = triangle.p[(i + 1) % 3];
-        if (a[axis] <= plane) side[0].grow(a);
-        if (a[axis] >= plane) side[1].grow(a);
+        const Float4 &a = corner[i], &b = corner[(i + 1) % 3];
+        if (a[axis] <= plane) side[0].grow({a, a});
+        if (a[axis] >= plane) side[1].grow({a, a});
         if ((a[axis] < plane) == (b[axis] < plane)) continue;
-        const glm::dvec3 from(a), edge = glm::dvec3(b) - from;
-        const glm::dvec3 point = from + edge * ((static_cast<double>(plane) - from[axis]) / edge[axis]);
-        for (Aabb& one : side) growAround(one, point);
+        const Box crossing = aroundCrossing(a, b, axis, plane);
+        for (Box& one : side) one.grow(crossing);
     }
-    for (Aabb& one : side) one.lo = glm::max(one.lo, box.lo), one.hi = glm::min(one.hi, box.hi);
-    side[0].hi[axis] = std::min(side[0].hi[axis], plane);
-    side[1].lo[axis] = std::max(side[1].lo[axis], plane);
 }
 
-bool isEmpty(const Aabb& box) {
-    return box.lo.x > box.hi.x || box.lo.y > box.hi.y || box.lo.z > box.hi.z;
-}
-
-/// Of worth 0 where none saves more than `leastGain`.
-Cut bestCut(const Primitive& primitive, const Aabb& box, const Aabb& scene, float leastGain) {
-    Cut best;
-    if (primitive.isSphere) return best;
-    for (int axis = 0; axis < 3; ++axis) {
-        Plane plane;
-        if (!planeThrough(scene, box, axis, plane)) continue;
-        Cut cut;
-        boxesOfSides(primitive, box, axis, plane.position, cut.side);
-        if (isEmpty(cut.side[0]) || isEmpty(cut.side[1])) continue;
-        const float gain = box.halfArea() - cut.side[0].halfArea() - cut.side[1].halfArea();
-        cut.worth = gain > leastGain ? gain * plane.spacing * plane.spacing : 0;
-        if (cut.worth > best.worth) best = cut;
+/// Boxes of what of a triangle's piece lies on either side of a plane through its box.
+void cut(const Geometry& geometry, const Ref& ref, int axis, float plane, Ref (&piece)[2]) {
+    Box side[2];
+    boundSides(geometry.primitives[ref.primitive()], axis, plane, side);
+    piece[0] = piece[1] = ref;
+    piece[0].hi[axis] = piece[1].lo[axis] = plane;
+    for (int i = 0; i < 2; ++i) {
+        Ref smallest = piece[i];  // keeps the number, in the idle lanes
+        for (int k = 0; k < 3; ++k) {
+            smallest.lo[k] = std::max(smallest.lo[k], side[i].lo[k]);
+            smallest.hi[k] = std::min(smallest.hi[k], side[i].hi[k]);
+        }
+        if (!isEmpty(smallest)) piece[i] = smallest;
     }
-    return best;
 }
 
-/// A piece that may be cut.
-struct Candidate {
-    float worth;
-    uint32_t piece;
-    bool operator<(const Candidate& other) const { return worth != other.worth ? worth < other.worth : piece > other.piece; }
+/// A sphere stays whole, on the side of its centre.
+bool isSphere(const Geometry& geometry, const Ref& ref) {
+    return geometry.primitives[ref.primitive()].isSphere;
+}
+
+float centerOf(const Ref& ref, int axis) {
+    return 0.5f * ref.center2(axis);
+}
+
+/// Planes at equal distances along an axis, and what lies between them.
+struct Slabs {
+    int axis;
+    uint32_t count;
+    float origin, width, perWidth;
+    Box box[kMostBins];
+    uint32_t first[kMostBins] = {}, last[kMostBins] = {};  // refs by the first, the last one that they reach
+
+    Slabs(const Range& range, int along)
+        : axis(along),
+          count(std::min(kMostBins, 4 + range.size / 4)),
+          origin(range.box.lo[axis]),
+          width((range.box.hi[axis] - origin) / static_cast<float>(count)),
+          perWidth(1 / width) {
+        std::fill_n(box, count, Box::empty());
+    }
+    bool areThere() const { return std::isfinite(width) && std::isfinite(perWidth); }
+    float plane(uint32_t slab) const { return origin + width * static_cast<float>(slab); }
+    /// But for rounding.
+    uint32_t near(float x) const {
+        const float position = (x - origin) * perWidth;
+        return std::min(static_cast<uint32_t>(position > 0 ? position : 0), count - 1);
+    }
+    /// So that a plane i is above `x` where, and only where, i > firstAt(x), and below it where i <= lastAt(x).
+    uint32_t firstAt(float x) const {
+        uint32_t slab = near(x);
+        while (slab > 0 && x < plane(slab)) --slab;
+        while (slab + 1 < count && !(x < plane(slab + 1))) ++slab;
+        return slab;
+    }
+    uint32_t lastAt(float x) const {
+        uint32_t slab = near(x);
+        while (slab > 0 && !(x > plane(slab))) --slab;
+        while (slab + 1 < count && x > plane(slab + 1)) ++slab;
+        return slab;
+    }
+    void add(const Geometry& geometry, const Ref& ref) {
+        uint32_t from = firstAt(ref.lo[axis]), to = std::max(from, lastAt(ref.hi[axis]));
+        if (from < to && isSphere(geometry, ref)) from = to = firstAt(centerOf(ref, axis));
+        Ref rest = ref;
+        for (uint32_t i = from; i < to; ++i) {
+            if (!(rest.lo[axis] < plane(i + 1) && plane(i + 1) < rest.hi[axis])) continue;
+            Ref piece[2];
+            cut(geometry, rest, axis, plane(i + 1), piece);
+            box[i].grow(piece[0]);
+            rest = piece[1];
+        }
+        box[to].grow(rest);
+        ++first[from], ++last[to];
+    }
 };
 
-struct Pieces {
-    std::vector<Piece> all;
-    Aabb scene;
-    double area = 0;  // of all boxes
-};
-
-Pieces wholePrimitives(const Geometry& geometry, ThreadPool& pool) {
-    const size_t count = geometry.primitives.size(), chunks = (count + kChunkSize - 1) / kChunkSize;
-    Pieces pieces;
-    pieces.all.resize(count);
-    std::vector<Pieces> parts(chunks);
-    pool.parallelFor(chunks, [&](size_t chunk) {
-        for (size_t i = chunk * kChunkSize; i < std::min(count, (chunk + 1) * kChunkSize); ++i) {
-            pieces.all[i] = {bounds(geometry.primitives[i]), static_cast<uint32_t>(i)};
-            parts[chunk].scene.grow(pieces.all[i].box);
-            parts[chunk].area += static_cast<double>(pieces.all[i].box.halfArea());
-        }
-    });
-    for (const Pieces& part : parts) pieces.scene.grow(part.scene), pieces.area += part.area;
-    return pieces;
+float costOf(const Box& box, uint32_t size) {
+    return box.halfArea() * static_cast<float>(size);
 }
 
-/// As a heap.
-std::vector<Candidate> candidatesAmong(const Pieces& pieces, const Geometry& geometry, float leastGain, ThreadPool& pool) {
-    const size_t count = pieces.all.size(), chunks = (count + kChunkSize - 1) / kChunkSize;
-    std::vector<std::vector<Candidate>> parts(chunks);
-    pool.parallelFor(chunks, [&](size_t chunk) {
-        for (size_t i = chunk * kChunkSize; i < std::min(count, (chunk + 1) * kChunkSize); ++i) {
-            if (!(pieces.all[i].box.halfArea() > leastGain)) continue;
-            const Cut cut = bestCut(geometry.primitives[i], pieces.all[i].box, pieces.scene, leastGain);
-            if (cut.worth > 0) parts[chunk].push_back({cut.worth, static_cast<uint32_t>(i)});
+/// Sizes and boxes of what is on the sides of a plane, with a piece of each ref that crosses it on both.
+struct Plane {
+    float cost = kInfinity;
+    int axis = -1;
+    float position = 0;
+    uint32_t size[2] = {};
+    Box box[2];
+};
+
+/// A further piece costs `penalty`.
+void findBetter(const Slabs& slabs, const Range& range, float penalty, Plane& best) {
+    Box second[kMostBins];
+    uint32_t secondSize[kMostBins];
+    Box box = Box::empty();
+    uint32_t size = 0;
+    for (uint32_t i = slabs.count - 1; i > 0; --i) {
+        box.grow(slabs.box[i]), size += slabs.last[i];
+        second[i] = box, secondSize[i] = size;
+    }
+    box = Box::empty(), size = 0;
+    for (uint32_t i = 1; i < slabs.count; ++i) {
+        box.grow(slabs.box[i - 1]), size += slabs.first[i - 1];
+        const uint32_t pieces = size + secondSize[i] - range.size;
+        if (size == 0 || secondSize[i] == 0 || pieces > range.room) continue;
+        const float cost = costOf(box, size) + costOf(second[i], secondSize[i]) + penalty * static_cast<float>(pieces);
+        if (cost < best.cost) best = {cost, slabs.axis, slabs.plane(i), {size, secondSize[i]}, {box, second[i]}};
+    }
+}
+
+/// The side where a ref that crosses the plane costs less whole than in two; -1 where none is.
+int wholeSide(const Ref& ref, float penalty, Plane& plane) {
+    float cost[2];
+    Box box[2] = {plane.box[0], plane.box[1]};
+    for (int i = 0; i < 2; ++i) {
+        box[i].grow(ref);
+        const int other = 1 - i;
+        cost[i] =
+            plane.size[other] > 1 ? costOf(box[i], plane.size[i]) + costOf(plane.box[other], plane.size[other] - 1) : kInfinity;
+    }
+    const int side = cost[1] < cost[0];
+    if (!(cost[side] < costOf(plane.box[0], plane.size[0]) + costOf(plane.box[1], plane.size[1]) + penalty)) return -1;
+    plane.box[side] = box[side];
+    --plane.size[1 - side];
+    return side;
+}
+
+/// Into `spare`: the first half from its front, the second from its back.
+Halves divide(const Geometry& geometry, const Range& range, float penalty, Plane plane) {
+    Ref *front = range.spare, *back = range.spare + range.slots();
+    Box box[2] = {Box::empty(), Box::empty()};
+    const auto put = [&](int side, const Ref& ref) {
+        box[side].grow(ref);
+        *(side == 0 ? front++ : --back) = ref;
+    };
+    for (uint32_t i = 0; i < range.size; ++i) {
+        const Ref& ref = range.refs[i];
+        if (!(ref.lo[plane.axis] < plane.position && plane.position < ref.hi[plane.axis])) {
+            put(ref.lo[plane.axis] < plane.position ? 0 : 1, ref);
+        } else if (isSphere(geometry, ref)) {
+            put(centerOf(ref, plane.axis) < plane.position ? 0 : 1, ref);
+        } else if (const int side = wholeSide(ref, penalty, plane); side >= 0) {
+            put(side, ref);
+        } else {
+            Ref piece[2];
+            cut(geometry, ref, plane.axis, plane.position, piece);
+            put(0, piece[0]), put(1, piece[1]);
         }
-    });
-    std::vector<Candidate> heap;
-    for (const std::vector<Candidate>& part : parts) heap.insert(heap.end(), part.begin(), part.end());
-    std::make_heap(heap.begin(), heap.end());
-    return heap;
+    }
+    Ref* const end = range.spare + range.slots();
+    const Halves halves =
+        placeHalves(range, static_cast<uint32_t>(front - range.spare), box[0], static_cast<uint32_t>(end - back), box[1]);
+    std::memmove(halves.half[1].refs, back, halves.half[1].size * sizeof(Ref));
+    return halves;
 }
 
 }  // namespace
 
-std::vector<Piece> splitPrimitives(const Geometry& geometry, double share, ThreadPool& pool) {
-    Pieces pieces = wholePrimitives(geometry, pool);
-    const auto count = static_cast<double>(pieces.all.size());
-    const auto most = static_cast<size_t>(count * (1 + share));
-    const float leastGain = kLeastGain * static_cast<float>(pieces.area / count);
-    std::vector<Candidate> heap = candidatesAmong(pieces, geometry, leastGain, pool);
-    const auto offer = [&](uint32_t piece) {
-        const Piece& one = pieces.all[piece];
-        const Cut cut = bestCut(geometry.primitives[one.primitive], one.box, pieces.scene, leastGain);
-        if (!(cut.worth > 0)) return;
-        heap.push_back({cut.worth, piece});
-        std::push_heap(heap.begin(), heap.end());
-    };
-    while (!heap.empty() && pieces.all.size() < most) {
-        std::pop_heap(heap.begin(), heap.end());
-        const uint32_t piece = heap.back().piece;
-        heap.pop_back();
-        const Piece whole = pieces.all[piece];
-        const Cut cut = bestCut(geometry.primitives[whole.primitive], whole.box, pieces.scene, leastGain);
-        pieces.all[piece].box = cut.side[0];
-        pieces.all.push_back({cut.side[1], whole.primitive});
-        offer(piece);
-        offer(static_cast<uint32_t>(pieces.all.size() - 1));
+void splitSpatially(const Geometry& geometry, const Range& range, const SpatialTerms& terms, Halves& halves) {
+    const Range &a = halves.half[0], &b = halves.half[1];
+    const Box overlap = intersection(a.box, b.box);
+    if (range.room == 0 || isEmpty(overlap) || !(overlap.halfArea() > terms.leastOverlap)) return;
+    // A subtree costs about 2 log2(size) times its area, rather than size times.
+    const auto size = static_cast<float>(range.size);
+    const float penalty = terms.leastGain * size / (2 * std::log2(size));
+    Plane best;
+    best.cost = a.cost() + b.cost();
+    for (int axis = 0; axis < 3; ++axis) {
+        Slabs slabs(range, axis);
+        if (!slabs.areThere()) continue;
+        for (uint32_t i = 0; i < range.size; ++i) slabs.add(geometry, range.refs[i]);
+        findBetter(slabs, range, penalty, best);
     }
-    if (static_cast<double>(pieces.all.size()) - count < kLeastPieces * count) return {};
-    return std::move(pieces.all);
+    if (best.axis >= 0) halves = divide(geometry, range, penalty, best);
 }
 
 }  // namespace minirtc

@@ -1,20 +1,18 @@
-// Splits primitives that fill little of their boxes into pieces, so that the builder can part them.
+// Splits a range at a plane, cutting the triangles that cross it in two.
 #pragma once
-#include "bvh.hpp"
-#include "parallel.hpp"
+#include "bvh_split.hpp"
 
 namespace minirtc {
 
-/// The box of what of a primitive lies between some planes, rounded outwards: every point of the primitive is in the box of one of its pieces.
-struct Piece {
-    Aabb box;
-    uint32_t primitive;
+/// When a split into pieces pays. All in half areas.
+struct SpatialTerms {
+    float leastOverlap = 0;  // of the halves without pieces, or none is looked for
+    float leastGain = 0;     // of the whole tree by a further piece, by estimate
 };
 
-/// One piece a primitive, in their order, then at most `share` times as many more: triangles are cut where the area of boxes falls most, the
-/// spatial splits of Stich, Friedrich and Dietrich 2009 ("Spatial Splits in Bounding Volume Hierarchies") made before the build, at planes which
-/// all triangles share, as by Karras and Aila 2013 ("Fast Parallel Construction of High-Quality Bounding Volume Hierarchies"). The same on
-/// any number of threads. Empty where too few triangles are worth it.
-std::vector<Piece> splitPrimitives(const Geometry& geometry, double share, ThreadPool& pool);
+/// Replaces `halves`, those of the best split of whole refs, by ones that a plane parts, where that costs less [Stich, Friedrich and Dietrich
+/// 2009, "Spatial Splits in Bounding Volume Hierarchies"]: triangles that cross it get a piece on each side, or go to one side whole where that
+/// costs less; spheres stay whole. Makes no more pieces than there is room for. A pure function of its input.
+void splitSpatially(const Geometry& geometry, const Range& range, const SpatialTerms& terms, Halves& halves);
 
 }  // namespace minirtc

@@ -110,11 +110,21 @@ void partition(const BinGrid& grid, const Split& split, const Ref* refs, uint32_
     }
 }
 
-Halves halvesAfter(const Range& range, const Bins& bins, const BinGrid& grid, const Split& split) {
-    const uint32_t n = split.firstSize;
-    Halves halves{{{range.spare, range.refs, n, Box::empty()}, {range.spare + n, range.refs + n, range.size - n, Box::empty()}}};
-    for (uint32_t i = 0; i < grid.count; ++i) halves.half[i >= split.bin].box.grow(bins.box[split.axis][i]);
+Halves placeHalves(const Range& range, uint32_t firstSize, const Box& first, uint32_t secondSize, const Box& second) {
+    Halves halves{{{range.spare, range.refs, firstSize, 0, first}, {range.spare, range.refs, secondSize, 0, second}}};
+    Range &a = halves.half[0], &b = halves.half[1];
+    const uint32_t room = range.slots() - firstSize - secondSize;
+    const float share = room > 0 ? a.cost() / (a.cost() + b.cost()) : 0;
+    a.room = share > 0 ? std::min(room, static_cast<uint32_t>(static_cast<double>(share) * room)) : 0;
+    b.room = room - a.room;
+    b.refs += a.slots(), b.spare += a.slots();
     return halves;
+}
+
+Halves placeHalves(const Range& range, const Bins& bins, const BinGrid& grid, const Split& split) {
+    Box box[2] = {Box::empty(), Box::empty()};
+    for (uint32_t i = 0; i < grid.count; ++i) box[i >= split.bin].grow(bins.box[split.axis][i]);
+    return placeHalves(range, split.firstSize, box[0], range.size - split.firstSize, box[1]);
 }
 
 bool splitBinned(const Range& range, Halves& halves) {
@@ -124,8 +134,8 @@ bool splitBinned(const Range& range, Halves& halves) {
     bins.add(grid, range.refs, range.size);
     const Split split = bestSplit(bins, grid);
     if (split.firstSize == 0) return false;
-    partition(grid, split, range.refs, range.size, range.spare, range.spare + split.firstSize);
-    halves = halvesAfter(range, bins, grid, split);
+    halves = placeHalves(range, bins, grid, split);
+    partition(grid, split, range.refs, range.size, halves.half[0].refs, halves.half[1].refs);
     return true;
 }
 
@@ -155,9 +165,12 @@ bool splitSwept(const Range& range, Halves& halves) {
         }
     }
     if (firstSize == 0) return false;
-    for (uint32_t i = 0; i < n; ++i) range.spare[i] = range.refs[order[bestAxis][i]];
-    halves = {{{range.spare, range.refs, firstSize, firstBox},
-               {range.spare + firstSize, range.refs + firstSize, n - firstSize, secondBox}}};
+    halves = placeHalves(range, firstSize, firstBox, n - firstSize, secondBox);
+    Ref* out = halves.half[0].refs;
+    for (uint32_t i = 0; i < n; ++i) {
+        if (i == firstSize) out = halves.half[1].refs;
+        *out++ = range.refs[order[bestAxis][i]];
+    }
     return true;
 }
 
@@ -170,8 +183,8 @@ Halves splitMedian(const Range& range) {
         std::stable_sort(range.refs, range.refs + range.size,
                          [axis](const Ref& a, const Ref& b) { return a.center2(axis) < b.center2(axis); });
     const uint32_t n = range.size / 2;
-    return {{{range.refs, range.spare, n, boxOf(range.refs, n)},
-             {range.refs + n, range.spare + n, range.size - n, boxOf(range.refs + n, range.size - n)}}};
+    return {{{range.refs, range.spare, n, 0, boxOf(range.refs, n)},
+             {range.refs + n, range.spare + n, range.size - n, range.room, boxOf(range.refs + n, range.size - n)}}};
 }
 
 }  // namespace minirtc

@@ -32,6 +32,11 @@ struct Box {
     float center2(int axis) const { return lo[axis] + hi[axis]; }
 };
 
+inline Box joined(Box a, const Box& b) {
+    a.grow(b);
+    return a;
+}
+
 /// The box of a primitive. The idle lanes hold the halves of the primitive's number, so they may pass through arithmetic.
 struct Ref : Box {
     Ref() = default;
@@ -41,12 +46,17 @@ struct Ref : Box {
     uint32_t primitive() const { return static_cast<uint32_t>(lo[3]) << 16 | static_cast<uint32_t>(hi[3]); }
 };
 
-/// `size` primitives. Splits write to `spare`, of the same size, or sort `refs`; what they return tells where the halves are.
+/// `size` primitives or pieces of them, and after them `room` for more pieces. Splits write to `spare`, of the same size, or sort `refs`; what
+/// they return tells where the halves are.
 struct Range {
     Ref* refs;
     Ref* spare;
     uint32_t size;
+    uint32_t room;
     Box box;
+    uint32_t slots() const { return size + room; }
+    /// What testing all of them costs, times the half area around.
+    float cost() const { return box.halfArea() * static_cast<float>(size); }
 };
 
 struct Halves {
@@ -99,14 +109,16 @@ Box centroidBounds2(const Ref* refs, uint32_t count);
 Split bestSplit(const Bins& bins, const BinGrid& grid);
 /// Copies `refs` to `first` or `second` by half, keeping their order.
 void partition(const BinGrid& grid, const Split& split, const Ref* refs, uint32_t count, Ref* first, Ref* second);
-/// The halves of `range` after a partition into its `spare`.
-Halves halvesAfter(const Range& range, const Bins& bins, const BinGrid& grid, const Split& split);
+/// Where halves of these sizes belong in the `spare` of a range: each with the share of the room that it has of the cost.
+Halves placeHalves(const Range& range, uint32_t firstSize, const Box& first, uint32_t secondSize, const Box& second);
+/// The same for the halves of a split between bins.
+Halves placeHalves(const Range& range, const Bins& bins, const BinGrid& grid, const Split& split);
 
 /// The split of least cost between bins. False if none is better than another: centres that agree, a box without area.
 bool splitBinned(const Range& range, Halves& halves);
 /// The same over every split along an axis, for at most kMaxSweepSize primitives.
 bool splitSwept(const Range& range, Halves& halves);
-/// Halves of equal size along the axis on which the centres spread most. Works for any input.
+/// Halves of equal size, the second with all the room, along the axis on which the centres spread most. Works for any input.
 Halves splitMedian(const Range& range);
 
 }  // namespace minirtc

@@ -226,6 +226,22 @@ TEST_CASE("Embree's hierarchies hold every triangle, and their cost is that of s
     }
 }
 
+TEST_CASE("hierarchies of high quality cost no more than Embree's, within their bytes") {
+    if (!EmbreeScene::available()) return test::skip("needs Embree 3");
+    std::vector<Mesh> meshes;
+    for (const uint32_t triangles : {1000u, 20000u}) meshes.push_back(knotMesh(triangles));
+    const std::filesystem::path seeds = test::sharedDir() / "scenes/seed";
+    for (const char* name : {"water.obj", "fudanlogo-mesh.obj", "venus-mesh.obj", "glass.obj"})
+        if (std::filesystem::exists(seeds / name)) meshes.push_back(loadMesh(seeds / name));
+    for (const Mesh& mesh : meshes) {
+        CAPTURE(mesh.name);
+        const minirtc::Bvh own = minirtc::buildBvh(mesh.geometry, 2);
+        CHECK(own.sahCost <= embreeTree(mesh.triangles, EmbreeQuality::high).sahCost);
+        CHECK(minirtc::bytesOf(own.order.size(), own.nodes.size()) <=
+              minirtc::kBytesEach * static_cast<double>(mesh.triangles.size()));
+    }
+}
+
 TEST_CASE("Embree's packets find what its single rays find") {
     if (!EmbreeScene::available()) return test::skip("needs Embree 3");
     const Mesh knot = knotMesh(2000);

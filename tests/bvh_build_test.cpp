@@ -383,6 +383,33 @@ TEST_CASE("splitting lowers the cost where triangles fill little of their boxes,
     CHECK(leavesOf(whole, geometry.primitives.size()) == std::vector<uint32_t>(geometry.primitives.size(), 1));
 }
 
+TEST_CASE("splitting keeps within the bytes that it is given, and more of them lower the cost") {
+    const Geometry geometry = wiredHill(0);
+    const auto count = static_cast<double>(geometry.primitives.size());
+    double before = buildBvh(geometry, 2, BvhQuality::high, 0).sahCost;
+    for (const double bytesEach : {68.0, 72.0}) {
+        CAPTURE(bytesEach);
+        const Bvh bvh = buildBvh(geometry, 2, BvhQuality::high, bytesEach);
+        const double bytes = bytesOf(bvh.order.size(), bvh.nodes.size());
+        CHECK(bytes <= bytesEach * count);
+        CHECK(bytes > (bytesEach - 1) * count);
+        CHECK(bvh.sahCost < 0.98 * before);
+        before = bvh.sahCost;
+    }
+}
+
+TEST_CASE("spheres are left whole among triangles that are split") {
+    Geometry geometry = wiredHill(0);
+    for (int i = 0; i < 300; ++i) {
+        const float x = static_cast<float>(i);
+        geometry.primitives.push_back(sphere(0.5f + 0.5f * glm::vec3(std::sin(3 * x), std::sin(5 * x), std::sin(7 * x)), 0.1f));
+    }
+    const Bvh bvh = buildChecked(geometry);
+    const std::vector<uint32_t> leaves = leavesOf(bvh, geometry.primitives.size());
+    CHECK(bvh.order.size() > geometry.primitives.size() + 100);
+    CHECK(std::all_of(leaves.end() - 300, leaves.end(), [](uint32_t n) { return n == 1; }));
+}
+
 TEST_CASE("a fine mesh is left whole") {
     const Geometry geometry = hill(100, 0.3f);
     CHECK(buildBvh(geometry, 2).order.size() == geometry.primitives.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "runtime_hooks.hpp"
 
@@ -160,6 +161,23 @@ void specialiseAsGpu(minirt_context* context) {
 
 bool hasWideNodes(const minirt_scene* scene) {
     return scene->wideNodes;
+}
+
+bool keepsWideNodes(const minirt_context* context, uint64_t nodes, bool floats) {
+    minirt_scene_desc scene = {};
+    scene.node_layout = floats ? MINIRT_NODES_FLOAT : MINIRT_NODES_QUANTISED;
+    minirt_blob blob = {};
+    blob.scene = &scene;
+    blob.node_count = nodes;
+    return detail::keepsWideNodes(context, blob);
+}
+
+uint32_t limitStorage(minirt_context* context, uint32_t bytes) {
+    return std::exchange(context->limits.maxStorageBufferRange, bytes);
+}
+
+void refuseDeviceMemory(minirt_context* context) {
+    context->vk.AllocateMemory = [](auto...) { return VK_ERROR_OUT_OF_DEVICE_MEMORY; };
 }
 
 void denyBallots(minirt_context* context) {
