@@ -269,7 +269,8 @@ Difference differenceOf(const Picture& a, const Picture& b) {
     return difference;
 }
 
-/// The same bits on a processor. A GPU's compiler rounds other code otherwise, and a path that then takes another way is another sample of its pixel.
+/// The same bits on a processor. A GPU's compiler rounds other code otherwise, and a path that then takes another way is another sample of its pixel: on
+/// an H100 some bits differed, and no pixel by more than a thousandth.
 void checkSame(const GpuContext& gpu, const Picture& pruned, const Picture& full) {
     if (gpu.isCpu()) {
         CHECK(pruned == full);
@@ -277,8 +278,8 @@ void checkSame(const GpuContext& gpu, const Picture& pruned, const Picture& full
     }
     const Difference difference = differenceOf(pruned, full);
     if (difference.share > 0) MESSAGE(100 * difference.share, " % of the pixels differ by more than rounding");
-    CHECK(difference.share <= 0.02);
-    CHECK(difference.mean <= 0.002);
+    CHECK(difference.share <= 0.005);
+    CHECK(difference.mean <= 5e-4);
 }
 
 }  // namespace
