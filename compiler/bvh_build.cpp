@@ -143,7 +143,7 @@ Bvh Builder::build() {
     return bvh;
 }
 
-/// Splits what is large with all threads at each split; the rest becomes tasks.
+/// Splits what is large with all threads at each split, but for pieces, which one makes; the rest becomes tasks.
 void Builder::buildTop(const Subtree& subtree) {
     if (subtree.range.size <= taskSize_) {
         tasks_.push_back(subtree);
@@ -262,7 +262,8 @@ uint32_t roomForPieces(const Bvh& whole, double mostBytes) {
 }
 
 Bvh buildHigh(const Geometry& geometry, uint32_t room, double mostBytes, ThreadPool& pool) {
-    LinkedTree tree(Builder(geometry, room, pool, false).build());
+    Bvh pieces = Builder(geometry, room, pool, false).build();  // first, so that the builder's memory is free again
+    LinkedTree tree(std::move(pieces));
     if (room > 0) joinPieces(tree, mostBytes);
     reinsertSubtrees(tree, pool);
     if (room > 0) joinPieces(tree, mostBytes);  // moves change which subtrees become leaves

@@ -99,6 +99,7 @@ LinkedTree::LinkedTree(Bvh bvh) : bvh_(std::move(bvh)) {
     root.box.grow(bvh_.nodes[0].child[1].box);
     add(root, kNoNode);
     isStirred_.assign(nodes_.size(), 1);
+    bvh_.nodes = {};  // only the order is read again
 }
 
 /// The subtree of `child`, whose depth is bounded.

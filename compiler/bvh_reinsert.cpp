@@ -66,7 +66,7 @@ Move bestMove(const LinkedTree& tree, uint32_t node) {
 
 /// Of this part's nodes, without those near which nothing has changed since they were tried.
 std::vector<Move> findMoves(LinkedTree& tree, uint32_t part, ThreadPool& pool) {
-    const uint32_t count = tree.size() / kParts;
+    const uint32_t count = (tree.size() + kParts - 1 - part) / kParts;
     std::vector<Move> moves(count);
     pool.parallelFor((count + kChunkSize - 1) / kChunkSize, [&](size_t chunk) {
         const auto begin = static_cast<uint32_t>(chunk) * kChunkSize;

@@ -212,7 +212,7 @@ Applicability applies(const Lever& lever, const EffectSet& effects, const std::v
     const bool whitted = std::any_of(integrators.begin(), integrators.end(), isWhitted);
     const bool paths = !std::all_of(integrators.begin(), integrators.end(), isWhitted);
     const bool ofWhitted = lever.name == "cutoff" || lever.name == "weak_rays";
-    if (ofWhitted && !whitted) return {false, "nothing is drawn by Whitted's tracer"};
+    if (ofWhitted && !whitted) return {false, "the scene does not ask for Whitted's tracer"};
     if (lever.name == "light_sampling" && !paths) return {false, "nothing traces paths"};
     if (lever.name == "fresnel") return anyOf(effects, {Effect::fresnel, Effect::roughTransmission});
     if (lever.name == "normals") return anyOf(effects, {Effect::smoothNormals});

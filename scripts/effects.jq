@@ -19,6 +19,6 @@ def device_section: .[0] as $first
 
 [inputs | {scene: (input_filename | scene_of), name: (.device | short_name), rounds, report: .effects[]}]
 | if length == 0 then empty else
-    "\n## Only the effects that a scene calls for\n\nKernels as `minirtc` bakes them, beside kernels with every effect (`--all-effects`) that draw the same pictures by turns, a process a scene (`minirt-bench --effects`): what the scene calls for *of* what all effects take. The first dispatch is with nothing cached, creation of the pipelines included; how many times faster: the median and the middle half of the rounds. Both pictures are the same bit for bit on lavapipe, and on an H100 no pixel of the scenes of `tests/effect_pruning_test.cpp` differs by more than a thousandth. Registers and stack are given where the driver tells (VK_KHR_pipeline_executable_properties).",
+    "\n## Only the effects that a scene calls for\n\nKernels as `minirtc` bakes them, beside kernels with every effect (`--all-effects`) that draw the same pictures by turns, a process a scene (`minirt-bench --effects`): what the scene calls for *of* what all effects take. The first dispatch is with nothing cached, creation of the pipelines included; how many times faster: the median and the middle half of the rounds. Registers and stack are given where the driver tells (VK_KHR_pipeline_executable_properties).",
     (. as $all | [.[].name] | distinct[] | . as $name | [$all[] | select(.name == $name)] | device_section)
   end

@@ -371,6 +371,9 @@ TEST_CASE(
     report.measurements.back().slowdown = {0.6, 0.5, 1.1};
     CHECK(choice()->configuration[0] == 2);
     CHECK(choice()->samples == 16);
+    report.measurements.back() = measured({1, 1, 2}, 1.01, 0.004, 0.01);  // 8 samples in the time of 4
+    const double own = report.measurements.front().ms.median;
+    CHECK(cost::expected(report.levers, report.measurements, report.measurements.back(), 8).ms == doctest::Approx(own));
 }
 
 TEST_CASE("a setting that misses bright sparks is not expected to have less noise for it") {
@@ -386,14 +389,15 @@ TEST_CASE("a setting that misses bright sparks is not expected to have less nois
 TEST_CASE("half the time is bought with the least error, or it is said that nothing measured halves it") {
     cost::Report report = sampleReport();
     CHECK(cost::halfTimeSentence(report) ==
-          "To halve the time, take 32 samples a pixel: 50 % less time, and the error rises from 0.000625 to 0.00125, as expected "
+          "To halve the time, take 32 samples a pixel: about 50 % less time, and the error rises from 0.000625 to 0.00125, as "
+          "expected "
           "at the scene's own samples.");
     CHECK(cost::commandsFor(report, *cost::halfTime(report).choice).back() ==
           "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32");
     report.sceneSamples = 4;
     report.measurements[3].sameSamples.wrongPixels = 0.05;  // at 2 samples, which are no lever's doing
     CHECK(contains(cost::halfTimeSentence(report),
-                   "take 2 samples a pixel: 50 % less time, and the error rises from 0.0100 to 0.0200."));
+                   "take 2 samples a pixel: about 50 % less time, and the error rises from 0.0100 to 0.0200."));
     CHECK(cost::halfTime(report).wrongPixels == 0);
     report.measurements.front().bias.standardError = 1e-5;
     report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
@@ -488,6 +492,21 @@ TEST_CASE("what is recommended is timed again, and replaced where it was fast by
     CHECK(report.confirmed);
     CHECK(report.measurements[6].slowdown.median == 0.81);
     CHECK(contains(cost::recommendationRule(report), "timed once more"));
+}
+
+TEST_CASE("what is recommended in the end has been timed again, also where it was another's turn in between") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    report.measurements.push_back(measured({0, 1, 2}, 0.6, 0.01, 0.01));
+    size_t calls = 0;
+    const auto again = [&](const cost::Configuration& configuration, uint32_t) -> std::optional<cost::Measurement> {
+        return measured(configuration, ++calls == 1 ? 0.85 : 0.9, 0.01, 0.01);
+    };
+    cost::confirmRecommendation(
+        again, 5, [] { return 60.0; }, report);
+    CHECK(calls == 2);
+    CHECK(cost::recommended(report) == 7);
+    CHECK(report.confirmed);
 }
 
 TEST_CASE("no recommendation is timed again beyond the time") {

@@ -40,7 +40,7 @@ public:
 
     /// `context` must outlive the object. Throws std::runtime_error, also where kernels shall count on a device without subgroup ballots.
     RayKernel(minirt_context* context, const RayScene& scene, Counting counting = Counting::off);
-    /// Makes the pipeline of the kernel that is timed, and nothing else: for a driver's statistics. Throws std::runtime_error.
+    /// Makes the pipeline of the kernel that is timed once more, for a driver's statistics; it needs the scene on the device too. Throws std::runtime_error.
     static void makePipeline(minirt_context* context, const RayScene& scene);
     ~RayKernel();
     RayKernel(const RayKernel&) = delete;

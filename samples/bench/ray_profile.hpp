@@ -20,8 +20,7 @@ struct LoopLanes {
     double passes = 0;  // of subgroups, a ray
     double empty = 0;   // of these, the share with no lane in them; 0 where lanes are not masked
     double inUse = 0;   // share of the passes' lanes that were of use
-    double bound =
-        0;  // the same if no subgroup took more passes than the longest of its rays; what is less waits for lanes in other loops
+    double bound = 0;   // the same if no subgroup took more passes than its longest ray; what is less waits for other loops
 };
 
 /// Of one set of rays.

@@ -28,8 +28,8 @@ double falloff(const std::vector<Lever>& levers, const std::vector<Measurement>&
 
 /// What cannot be told from the time of the scene's own settings, `own`, counts as that: else the fastest by chance is chosen.
 double msPerSample(const std::vector<Lever>& levers, const Measurement& m, const Measurement& own) {
-    const Measurement& timed = covers(m.slowdown, 1) ? own : m;
-    return timed.ms.median / samplesOf(levers, timed.configuration);
+    const double ms = covers(m.slowdown, 1) ? own.ms.median : m.ms.median;
+    return ms / samplesOf(levers, m.configuration);
 }
 
 /// Both path tracers draw the same.

@@ -26,8 +26,8 @@ void confirmRecommendation(const MeasureAgain& measureAgain, uint32_t rounds, co
         if (!again) return;
         report.measurements[i].ms = again->ms;
         report.measurements[i].slowdown = again->slowdown;
-        report.confirmed = recommended(report) == i;
     }
+    report.confirmed = recommended(report) != 0;
 }
 
 }  // namespace cost

@@ -76,7 +76,8 @@ HalfTime halfTime(const Report& report) {
     half.fits = half.choice.has_value();
     if (!half.fits) half.choice = surelyFastest(report);
     const BudgetChoice advice = recommendedChoice(report);
-    half.advised = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
+    const bool same = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
+    half.advised = same || report.measurements[recommended(report)].slowdown.median <= 0.5;
     if (half.choice) half.wrongPixels = moreWrongPixels(report, half.choice->configuration);
     return half;
 }
@@ -86,8 +87,8 @@ std::string halfTimeSentence(const Report& report) {
     if (!half.choice) return noneFasterSentence(report);
     if (half.advised) return "This halves the time already.";
     std::string text = half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. The fastest is ";
-    text += changesInWords(report, *half.choice) + ": " + percent(1 - half.choice->ms / half.own.ms) + " less time, and " +
-            errorChange(half.own.relMse, half.choice->relMse);
+    text += changesInWords(report, *half.choice) + (half.fits ? ": about " : ": ") + percent(1 - half.choice->ms / half.own.ms) +
+            " less time, and " + errorChange(half.own.relMse, half.choice->relMse);
     if (report.samples() < report.sceneSamples) text += ", as expected at the scene's own samples";
     if (half.wrongPixels > kNoticeablePixels) text += "; with it " + percent(half.wrongPixels) + " of the pixels look wrong";
     return text + ".";
