@@ -243,7 +243,7 @@ TEST_CASE("sentences give the cost of the accurate setting and what the cheap on
     CHECK(report.levers[fresnel.lever].name == "fresnel");
     CHECK(cost::sentence(report.levers[0], fresnel) ==
           "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error; without it 12 % of the "
-          "pixels look wrong.");
+          "pixels visibly change.");
     CHECK(cost::verdict(fresnel) == "keep");
     CHECK(cost::idleSentence(idleLever()) == "Dispersion: left alone, since no medium disperses light.");
 }
@@ -415,9 +415,9 @@ TEST_CASE("where not even one sample fits half the time, the fastest that surely
                            measured({1, 1, 0}, 0.81, 0.02, 0.13), measured({2, 1, 1}, 2, 0.005, 0.01)};
     report.measurements[2].sameSamples.relMse = 0;
     CHECK(cost::halfTimeSentence(report) ==
-          "Nothing that was measured halves the time. The fastest is Schlick's Fresnel: 19 % less time, and the error rises from "
-          "0.0100 "
-          "to 0.0200; with it 12 % of the pixels look wrong.");
+          "Nothing that was measured halves the time. What surely saves the most is Schlick's Fresnel: 19 % less time, and the "
+          "error "
+          "rises from 0.0100 to 0.0200; 12 % of the pixels visibly change, more than a recommendation may.");
     CHECK_FALSE(cost::halfTime(report).fits);
     for (cost::Measurement& m : report.measurements) m.slowdown.upper = 1.2;
     CHECK(cost::halfTimeSentence(report) ==

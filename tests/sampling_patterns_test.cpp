@@ -9,6 +9,29 @@
 using glm::vec2;
 using glm::vec3;
 
+TEST_CASE("groups that take turns are all there once, and each half has a part of every quarter of the grid") {
+    for (uint32_t groups : {1u, 2u, 3u, 63u, 64u, 127u, 128u, 129u, 191u, 192u, 1000u, 4095u, 4096u, 14400u, 32401u})
+        for (uint32_t most : {1u, 32u}) {
+            CAPTURE(groups);
+            CAPTURE(most);
+            std::set<uint32_t> all;
+            std::vector<uint32_t> ofFirst(4, 0);  // in quarters of the grid
+            for (uint32_t i = 0; i < groups; ++i) {
+                const uint32_t group = f32::interleaved(i, groups, most);
+                all.insert(group);
+                if (i < (groups + 1) / 2 && group < groups) ofFirst[group * 4 / groups]++;
+            }
+            CHECK(all.size() == groups);
+            CHECK(*all.rbegin() == groups - 1);
+            if (groups >= 64)
+                for (uint32_t count : ofFirst) CHECK(std::abs(int(count) - int(groups / 8)) <= int(groups / 32 + 1));
+        }
+    CHECK(f32::interleaved(1, 4096, 1) == 2);
+    CHECK(f32::interleaved(1, 4096, 32) == 1);
+    CHECK(f32::interleaved(32, 4096, 32) == 64);
+    CHECK(f32::interleaved(2048, 4096, 32) == 32);
+}
+
 TEST_CASE("the pixels of a group in Morton order are each a different one of its block") {
     std::set<std::pair<uint32_t, uint32_t>> pixels;
     for (uint32_t lane = 0; lane < 64; ++lane) pixels.insert({f32::everySecondBit(lane), f32::everySecondBit(lane >> 1)});

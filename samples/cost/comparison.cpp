@@ -128,7 +128,7 @@ std::string changePhrase(const Comparison& c, bool plural) {
         phrase = "make" + s + " the error " + number(1 - c.removed) + " times as large";
     if (c.wrongPixels > kNoticeablePixels)
         phrase += std::string(c.change == ErrorChange::more ? " at so few samples, but" : ";") + " without " +
-                  std::string(plural ? "them" : "it") + " " + percent(c.wrongPixels) + " of the pixels look wrong";
+                  std::string(plural ? "them" : "it") + " " + percent(c.wrongPixels) + " of the pixels visibly change";
     return phrase;
 }
 

@@ -65,9 +65,11 @@ const std::vector<Term> kTerms = {
      "<code>--light-sampling</code>."},
     {"llvmpipe", "llvmpipe", {"llvmpipe"}, "Mesa's driver lavapipe, which runs a graphics card's programs on the processor."},
     {"look-wrong",
-     "Look wrong",
-     {"look wrong", "looks wrong"},
-     "A pixel is so far from the reference's that a screen shows it: by more than 2 of 255 steps."},
+     "Look wrong, visibly change",
+     {"look wrong", "looks wrong", "visibly change"},
+     "A pixel that looks wrong is so far from the reference's that a screen shows it: by more than 2 of 255 steps, noise "
+     "included. Those that visibly change "
+     "by a setting alone are counted without the noise: pictures with it and without it have the same."},
     {"moeller",
      "Möller–Trumbore",
      {"Möller–Trumbore"},

@@ -86,11 +86,13 @@ std::string halfTimeSentence(const Report& report) {
     const HalfTime half = halfTime(report);
     if (!half.choice) return noneFasterSentence(report);
     if (half.advised) return "This halves the time already.";
-    std::string text = half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. The fastest is ";
+    std::string text =
+        half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. What surely saves the most is ";
     text += changesInWords(report, *half.choice) + (half.fits ? ": about " : ": ") + percent(1 - half.choice->ms / half.own.ms) +
             " less time, and " + errorChange(half.own.relMse, half.choice->relMse);
     if (report.samples() < report.sceneSamples) text += ", as expected at the scene's own samples";
-    if (half.wrongPixels > kNoticeablePixels) text += "; with it " + percent(half.wrongPixels) + " of the pixels look wrong";
+    if (half.wrongPixels > kNoticeablePixels)
+        text += "; " + percent(half.wrongPixels) + " of the pixels visibly change, more than a recommendation may";
     return text + ".";
 }
 

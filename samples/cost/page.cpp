@@ -66,6 +66,10 @@ std::string insteadOf(const Report& report) {
     return report.samples() < report.sceneSamples ? " instead of the scene's " + std::to_string(report.sceneSamples) : "";
 }
 
+std::string atSamples(const Report& report) {
+    return report.samples() < report.sceneSamples ? ", but " + sampleCount(report.samples()) + " a pixel" : "";
+}
+
 /// What to know beside the answer.
 std::string findingsSection(const Report& report) {
     std::string items;
@@ -78,7 +82,7 @@ std::string findingsSection(const Report& report) {
         "<b>Error</b>: how far a picture is from the reference, in which all is at its most accurate; 0 is no difference. "
         "<b>Look wrong</b>: off by more than " +
         std::to_string(kUnseenSteps) +
-        " of a screen's 255 steps. <b>Keep</b>: worth its time. <b>Spare</b>: do without. More under "
+        " of a screen's 255 steps. <b>Keep</b>: worth its time. <b>Spare</b>: time for nothing, leave it out. More under "
         "<a href=\"#method\">how this was measured</a>; underlined <a href=\"#words\">words</a> are explained there too.";
     return element("ul", "class=\"findings\"", items) + element("p", "class=\"soft\"", words);
 }
@@ -116,7 +120,8 @@ std::string unsteadyWarning(const Report& report) {
     if (share <= kUnsteady) return "";
     return element("p", "class=\"warning\"",
                    prose("Times were unsteady: the middle half of the repeats of the same picture differs by " + percent(share) +
-                         ". Do not trust smaller differences in time, and measure again while nothing else runs."));
+                         ". Settings took turns, so a difference in time that is named is there, but not known to better than "
+                         "that: measure again while nothing else runs."));
 }
 
 std::string head(const Report& report) {
@@ -131,7 +136,7 @@ std::string head(const Report& report) {
     const Measurement& own = report.measurements.front();
     std::string pictures = figure(
         pictureUri(own.picture),
-        "The scene with its own settings: " + number(own.ms.median) + " ms" +
+        "The scene with its own settings" + atSamples(report) + ": " + number(own.ms.median) + " ms" +
             (report.reference.random && own.repeats > 1 ? " each, mean of " + std::to_string(own.repeats) + " pictures" : "") +
             ". " + percent(own.error.wrongPixels) + " of the pixels look wrong, the noise of " + sampleCount(report.samples()) +
             " a pixel included");
@@ -156,11 +161,11 @@ std::string leversSection(const Report& report) {
         "of the two is the scene's own. "
         "<b>keep</b>: costs no time, or the error falls by a larger factor than the time grows. <b>trade</b>: more accurate, but "
         "the "
-        "time grows by the larger factor. <b>spare</b>: costs time for nothing, do without. <b>idle</b>: can change nothing "
+        "time grows by the larger factor. <b>spare</b>: costs time for nothing, leave it out. <b>idle</b>: can change nothing "
         "here. <b>either</b>: no difference. How to set each: "
         "<code>minirtc levers</code>.";
-    return element("h2", "", "Each lever, what removes the most error for its time first") +
-           element("ul", "class=\"levers\"", items) + element("p", "class=\"soft\"", key);
+    return element("h2", "", "Each lever, the clearest choice first") + element("ul", "class=\"levers\"", items) +
+           element("p", "class=\"soft\"", key);
 }
 
 /// The scene's own settings, then levers by their use, then combinations by time.

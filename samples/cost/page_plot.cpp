@@ -129,7 +129,7 @@ std::string legend(const Report& report) {
     if (any([&](size_t i) { return isPale(report, i); }))
         items += legendItem("lever pale", disc("2.5"), "like the scene's own settings");
     items += legendItem("", "<path d=\"M0 6H12\" stroke=\"var(--front)\" stroke-width=\"2\"/>",
-                        "Pareto front: nothing measured is surely both faster and more accurate");
+                        "Pareto front: nothing measured is surely both faster and more accurate than these");
     return element("ul", "class=\"legend\"", items);
 }
 

@@ -9,7 +9,9 @@ std::string Report::nameOf(size_t measurement) const {
     std::string name;
     for (size_t i = 0; i < levers.size(); ++i) {
         const Configuration& c = measurements[measurement].configuration;
-        if (c[i] != own[i]) name += (name.empty() ? "" : ", ") + levers[i].settings[c[i]].words;
+        if (c[i] == own[i]) continue;
+        name += (name.empty() ? "" : ", ") + levers[i].settings[c[i]].words;
+        if (levers[i].kind == LeverKind::samples && samplesOf(levers, c) == sceneSamples) name += " (the scene's)";
     }
     return name.empty() ? "the scene's own settings" : name;
 }

@@ -39,19 +39,13 @@ PixelTask taskOf(uint slot) {
     return task;
 }
 
-/// Of the invocation's group.
-uint groupNumber() {
-    uint group = gl_WorkGroupID.x;
-    if (INTERLEAVE_GROUPS) {  // devices that give each core one half of the grid: let both halves be alike
-        uint groups = gl_NumWorkGroups.x;
-        uint firstHalf = (groups + 1u) / 2u;
-        group = group < firstHalf ? group * 2u : (group - firstHalf) * 2u + 1u;
-    }
-    return group;
+/// Of the invocation's group. Some devices give each core one half of the grid: let both halves be alike.
+uint groupNumber(uint mostInChunk) {
+    return INTERLEAVE_GROUPS ? interleaved(gl_WorkGroupID.x, gl_NumWorkGroups.x, mostInChunk) : gl_WorkGroupID.x;
 }
 
 /// That of an invocation: a group is a block.
-PixelTask pixelTask() { return taskOf(groupNumber() * gl_WorkGroupSize.x + gl_LocalInvocationIndex); }
+PixelTask pixelTask() { return taskOf(groupNumber(1u) * gl_WorkGroupSize.x + gl_LocalInvocationIndex); }
 
 vec3 cameraDirection(uvec2 pixel, uint sampleIndex) {
     vec2 at = (vec2(pixel) + pixelSample(sampleIndex)) / vec2(frame.size.xy) * 2.0 - 1.0;

@@ -11,10 +11,13 @@ Traversal fetchQuery(uint index) {
     return beginTraversal(a.xyz, b.xyz, b.w, frame.sampling.y != 0u);
 }
 
+/// Rays are read from memory in their order, and a core reads ahead; pictures are not, where what counts is that both cores get as much to do.
+const uint RAY_GROUPS_IN_CHUNK = 32u;
+
 void main() {
     uint lane = gl_LocalInvocationIndex;
     uint inBlock = everySecondBit(lane) + everySecondBit(lane >> 1) * 8u;
-    uint index = (frame.blocks.x + groupNumber()) * gl_WorkGroupSize.x + inBlock;
+    uint index = (frame.blocks.x + groupNumber(RAY_GROUPS_IN_CHUNK)) * gl_WorkGroupSize.x + inBlock;
     Traversal ray = fetchQuery(index);
     uint steps = 0u;
     traverse(ray, steps, STEP_BUDGET);
