@@ -419,25 +419,9 @@ TEST_CASE("where not even one sample fits half the time, the fastest that surely
           "error "
           "rises from 0.0100 to 0.0200; 12 % of the pixels visibly change, more than a recommendation may.");
     CHECK_FALSE(cost::halfTime(report).fits);
-    for (cost::Measurement& m : report.measurements) m.slowdown.upper = 1.2;
-    CHECK(cost::halfTimeSentence(report) ==
-          "Nothing that was measured halves the time, or surely saves any. What looks the fastest is no Fresnel reflection: 20 % "
-          "less time, which may be chance, and the error rises from 0.0100 to 0.0300.");
+    for (cost::Measurement& m : report.measurements) m.slowdown.upper = 0.96;
+    CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or surely saves 5 % of it.");
     CHECK_FALSE(cost::halfTime(report).choice);
-    for (cost::Measurement& m : report.measurements) m.slowdown.median = std::max(m.slowdown.median, 1.0);
-    CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or takes less at all.");
-}
-
-TEST_CASE("a setting more accurate than the scene's own is never what looks the fastest") {
-    cost::Report report = sampleReport();
-    report.levers[0].initial = 1;
-    report.levers[2].settings = {{"1", "1 sample", 1}};
-    report.levers[2].initial = 0;
-    report.sceneSamples = 1;
-    report.measurements = {measured({1, 1, 0}, 1, 0.01, 0.01), measured({2, 1, 0}, 0.7, 0.01, 0.01),
-                           measured({0, 1, 0}, 0.9, 0.02, 0.1)};
-    for (cost::Measurement& m : report.measurements) m.slowdown.upper = 1.2;
-    CHECK(contains(cost::halfTimeSentence(report), "What looks the fastest is no Fresnel reflection: 10 % less time"));
 }
 
 TEST_CASE("what is recommended is the fastest that keeps the quality, with the fewest settings changed") {

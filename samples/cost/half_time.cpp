@@ -1,7 +1,6 @@
 #include "half_time.hpp"
 
 #include <algorithm>
-#include <functional>
 
 #include "commands.hpp"
 #include "figures.hpp"
@@ -24,11 +23,11 @@ const Measurement& quickest(const std::vector<const Measurement*>& measurements)
     return **std::min_element(measurements.begin(), measurements.end(), quicker);
 }
 
-/// Of those that surely save time and are not surely slower than the fastest, the most accurate.
+/// Of those that surely save enough to be worth a change and are not surely slower than the fastest, the most accurate.
 std::optional<BudgetChoice> surelyFastest(const Report& report) {
     std::vector<const Measurement*> faster = atOwnSamples(report);
     const auto drop = [&](const auto& slow) { faster.erase(std::remove_if(faster.begin(), faster.end(), slow), faster.end()); };
-    drop([](const Measurement* m) { return m->slowdown.upper >= 1; });
+    drop([](const Measurement* m) { return m->slowdown.upper > 1 - kLeastSaving; });
     if (faster.empty()) return std::nullopt;
     const Spread first = quickest(faster).slowdown;
     drop([&](const Measurement* m) { return surelySlower(m->slowdown, first); });
@@ -52,21 +51,6 @@ std::string errorChange(double from, double to) {
     return std::string("the error ") + (to > from ? "rises" : "falls") + " from " + number(from) + " to " + number(to);
 }
 
-/// A setting more accurate than the scene's own looks fast by chance alone.
-std::string noneFasterSentence(const Report& report) {
-    const Measurement& own = report.measurements.front();
-    std::vector<const Measurement*> cheaper = atOwnSamples(report);
-    const auto finer = [&](const Measurement* m) {
-        return !std::equal(m->configuration.begin(), m->configuration.end(), own.configuration.begin(), std::less_equal<>());
-    };
-    cheaper.erase(std::remove_if(cheaper.begin(), cheaper.end(), finer), cheaper.end());
-    const Measurement& m = quickest(cheaper);
-    if (m.slowdown.median >= 1) return "Nothing that was measured halves the time, or takes less at all.";
-    return "Nothing that was measured halves the time, or surely saves any. What looks the fastest is " +
-           changesInWords(report, {m.configuration, report.sceneSamples, 0, 0}) + ": " + percent(1 - m.slowdown.median) +
-           " less time, which may be chance, and " + errorChange(own.error.relMse, m.error.relMse) + ".";
-}
-
 }  // namespace
 
 HalfTime halfTime(const Report& report) {
@@ -84,7 +68,7 @@ HalfTime halfTime(const Report& report) {
 
 std::string halfTimeSentence(const Report& report) {
     const HalfTime half = halfTime(report);
-    if (!half.choice) return noneFasterSentence(report);
+    if (!half.choice) return "Nothing that was measured halves the time, or surely saves " + percent(kLeastSaving) + " of it.";
     if (half.advised) return "This halves the time already.";
     std::string text =
         half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. What surely saves the most is ";

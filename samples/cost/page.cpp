@@ -90,7 +90,7 @@ std::string findingsSection(const Report& report) {
 /// What to type for a choice, or to write into the scene file.
 std::string typed(const Report& report, const std::string& heading, const BudgetChoice& choice) {
     std::string lines;
-    for (const std::string& command : commandsFor(report, choice)) lines += escaped(command) + "\n";
+    for (const std::string& command : commandsFor(report, choice)) lines += "<span>" + escaped(command) + "</span>";
     std::string text = element("p", "", heading) + element("pre", "", lines);
     const std::string keys = sceneKeys(report, choice);
     const std::string beside = optionsBesideKeys(report, choice);

@@ -28,7 +28,8 @@ figcaption { margin-top: .25rem; }
 .half { font-size: 1.1rem; line-height: 1.4; }
 .warning { color: var(--spare); }
 .howto { padding: .3rem .9rem; margin: 1rem 0; }
-pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); border-radius: 4px; background: var(--paper); font-size: .85rem; overflow-x: auto; }
+pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); border-radius: 4px; background: var(--paper); font-size: .85rem; white-space: pre-wrap; overflow-wrap: anywhere; }
+pre span { display: block; padding-left: 1.5em; text-indent: -1.5em; }
 .chip { display: inline-block; min-width: 3.7em; padding: 0 .5em; border: 1px solid currentColor; border-radius: 1em; font-size: .78rem; text-align: center; }
 .chip.keep { color: var(--keep); } .chip.spare { color: var(--spare); } .chip.trade { color: var(--trade); } .chip.either { color: var(--either); }
 .levers { list-style: none; padding: 0; margin: 0; }

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kMoreError = 0.05;         // that is accepted, as a share of the error of the scene's own settings
 constexpr double kMoreWrongPixels = 0.002;  // likewise, as a share of all pixels
-constexpr double kLeastSaving = 0.05;       // of the time, that is worth a change
 
 /// How many times as many samples the scene takes by itself as were measured.
 double moreSamples(const Report& report) {

@@ -4,6 +4,8 @@
 
 namespace cost {
 
+constexpr double kLeastSaving = 0.05;  // of the time, that is worth a change
+
 /// The measurement to take in place of the scene's own settings; 0, which is these, where nothing is worth a change. Of the same figures always the same.
 size_t recommended(const Report& report);
 
