@@ -19,9 +19,9 @@ stayed and noise has fallen. **Time** is the accurate setting's over the cheap o
 measured in rounds in which all settings take turns; the drift of whole rounds is taken out. A pixel is **wrong** when its 8-bit sRGB value is off by more
 than 2 steps; given where pictures have no noise, by how many more the cheap setting gets wrong at the same samples.
 `keep`: costs no time, or the error falls by a larger factor than the time grows; `trade`: more accurate, but the time grows by the larger factor; `spare`: costs time for
-nothing; `either`: no difference; `·`: it can change nothing there.
+nothing; `either`: no difference; `·`: it can change nothing there." + (if $effects == "0" then "" else "
 
-What it gains that kernels hold only the effects of their scene is [at the end](#only-the-effects-that-a-scene-calls-for).";
+What it gains that kernels hold only the effects of their scene is [at the end](#only-the-effects-that-a-scene-calls-for)." end);
 
 # The leading verdicts of each scene.
 def glance:

@@ -87,7 +87,6 @@ TEST_CASE("a scene file's levers are measured against a reference that is more a
     CHECK(report["findings"].size() == 2);
     CHECK(report["recommendation"]["commands"].size() == 2);
     CHECK(report["half_time"]["fits"] == true);  // a sample instead of two
-    CHECK(report["half_time"]["choice"]["ms"] <= report["half_time"]["own"]["ms"].get<double>() / 2);
     for (const auto& lever : report["levers"])
         if (lever["name"] == "dispersion") CHECK(lever["applies"] == false);
 }

@@ -37,13 +37,13 @@ std::optional<BudgetChoice> surelyFastest(const Report& report) {
 }
 
 /// By the levers of a measured configuration; not by its samples.
-double moreWrongPixels(const Report& report, const Configuration& configuration) {
+double wrongByLevers(const Report& report, const Configuration& configuration) {
     const size_t samples = findLever(report.levers, LeverKind::samples);
     const Measurement& own = report.measurements.front();
     if (with(configuration, samples, own.configuration[samples]) == own.configuration) return 0;
     const auto measured = [&](const Measurement& m) { return m.configuration == configuration; };
     const auto found = std::find_if(report.measurements.begin(), report.measurements.end(), measured);
-    return found->sameSamples.wrongPixels - own.sameSamples.wrongPixels;
+    return moreWrongPixels(report, *found);
 }
 
 std::string errorChange(double from, double to) {
@@ -62,7 +62,7 @@ HalfTime halfTime(const Report& report) {
     const BudgetChoice advice = recommendedChoice(report);
     const bool same = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
     half.advised = same || report.measurements[recommended(report)].slowdown.median <= 0.5;
-    if (half.choice) half.wrongPixels = moreWrongPixels(report, half.choice->configuration);
+    if (half.choice) half.wrongPixels = wrongByLevers(report, half.choice->configuration);
     return half;
 }
 

@@ -9,8 +9,7 @@
 namespace cost {
 namespace {
 
-constexpr double kMoreError = 0.05;         // that is accepted, as a share of the error of the scene's own settings
-constexpr double kMoreWrongPixels = 0.002;  // likewise, as a share of all pixels
+constexpr double kMoreError = 0.05;  // that is accepted, as a share of the error of the scene's own settings
 
 /// How many times as many samples the scene takes by itself as were measured.
 double moreSamples(const Report& report) {
@@ -31,13 +30,8 @@ double errorRatio(const Report& report, const Measurement& m) {
     return expectedError(report, m) / std::max(expectedError(report, report.measurements.front()), 1e-12);
 }
 
-/// Share of all pixels that look wrong by the settings alone.
-double moreWrongPixels(const Report& report, const Measurement& m) {
-    return m.sameSamples.wrongPixels - report.measurements.front().sameSamples.wrongPixels;
-}
-
 bool keepsQuality(const Report& report, const Measurement& m) {
-    return errorRatio(report, m) <= 1 + kMoreError && moreWrongPixels(report, m) <= kMoreWrongPixels;
+    return errorRatio(report, m) <= 1 + kMoreError && moreWrongPixels(report, m) <= kNoticeablePixels;
 }
 
 bool savesTime(const Measurement& m) {
@@ -69,7 +63,7 @@ std::string nearestMissSentence(const Report& report, size_t miss) {
     const Measurement& m = report.measurements[miss];
     return " The nearest to it is " + changesInWords(report, choiceOf(report, miss)) + ": " + percent(1 - m.slowdown.median) +
            " less time, but " + percent(moreWrongPixels(report, m)) + " of the pixels visibly change, where " +
-           percent(kMoreWrongPixels) + " may.";
+           percent(kNoticeablePixels) + " may.";
 }
 
 std::string errorInWords(double ratio) {
@@ -78,6 +72,10 @@ std::string errorInWords(double ratio) {
 }
 
 }  // namespace
+
+double moreWrongPixels(const Report& report, const Measurement& m) {
+    return m.sameSamples.wrongPixels - report.measurements.front().sameSamples.wrongPixels;
+}
 
 size_t recommended(const Report& report) {
     std::vector<size_t> candidates;
@@ -123,7 +121,7 @@ std::string recommendationRule(const Report& report) {
                        " of the time in three quarters of all pairs of repeats, and whose error is at most " +
                        percent(kMoreError) + " larger than that of the scene's own settings";
     rule += report.reference.random ? ", as expected at the scene's " + std::to_string(report.sceneSamples) + " samples a pixel."
-                                    : ", at the same samples as well, with at most " + percent(kMoreWrongPixels) +
+                                    : ", at the same samples as well, with at most " + percent(kNoticeablePixels) +
                                           " more of the pixels looking wrong there.";
     rule += " Of those that are slower than it by less than " + percent(kSameTime) +
             ", or by no more than the repeats spread, the one that changes the fewest settings";

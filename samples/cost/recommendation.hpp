@@ -6,6 +6,9 @@ namespace cost {
 
 constexpr double kLeastSaving = 0.05;  // of the time, that is worth a change
 
+/// Share of all pixels that look wrong by a measurement's settings alone, at the same samples; beyond kNoticeablePixels it is not recommended.
+double moreWrongPixels(const Report& report, const Measurement& m);
+
 /// The measurement to take in place of the scene's own settings; 0, which is these, where nothing is worth a change. Of the same figures always the same.
 size_t recommended(const Report& report);
 

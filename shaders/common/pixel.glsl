@@ -1,4 +1,4 @@
-// Where pixels lie in a group and samples in a pixel. GLSL and C++ (tests/shader_source.hpp).
+// Where groups lie in the grid, pixels in a group and samples in a pixel. GLSL and C++ (tests/shader_source.hpp).
 
 /// Every second bit of x, packed: the inverse of Morton order.
 uint everySecondBit(uint x) {
