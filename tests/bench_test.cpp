@@ -242,6 +242,25 @@ TEST_CASE("hierarchies of high quality cost no more than Embree's, within their 
     }
 }
 
+TEST_CASE("a mesh that is subdivided covers what it covered, in triangles of a quarter of the size") {
+    const test::TemporaryDir folder;
+    const std::filesystem::path file = folder.write("two.obj", "v 0 0 0\nv 4 0 0\nv 4 0 2\nv 0 3 2\nf 1 2 3\nf 1 3 4\n");
+    const Triangles coarse = loadMesh(file).triangles;
+    const Triangles fine = loadMesh(file, 2).triangles;
+    REQUIRE(coarse.size() == 2);
+    REQUIRE(fine.size() == 16 * coarse.size());
+    const auto area = [](const Triangle& t) { return 0.5f * glm::cross(t[1] - t[0], t[2] - t[0]); };
+    for (size_t i = 0; i < coarse.size(); ++i) {
+        glm::vec3 sum(0);
+        for (size_t k = 0; k < 16; ++k) {
+            // Each has its share, and faces the same way.
+            CHECK(glm::distance(area(fine[16 * i + k]), area(coarse[i]) / 16.0f) < 1e-5f);
+            sum += (fine[16 * i + k][0] + fine[16 * i + k][1] + fine[16 * i + k][2]) / 48.0f;
+        }
+        CHECK(glm::distance(sum, (coarse[i][0] + coarse[i][1] + coarse[i][2]) / 3.0f) < 1e-5f);
+    }
+}
+
 TEST_CASE("Embree's packets find what its single rays find") {
     if (!EmbreeScene::available()) return test::skip("needs Embree 3");
     const Mesh knot = knotMesh(2000);

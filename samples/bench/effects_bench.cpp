@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "../common/wake.hpp"
 #include "commands.hpp"
 #include "stage.hpp"
 #include "start_bench.hpp"
@@ -57,6 +58,7 @@ EffectsResult benchEffects(const fs::path& scene, const EffectsOptions& options)
     result.integrator = nameOf(stages[0]->scene().integrator);
     result.width = options.width ? options.width : stages[0]->scene().width;
     result.height = options.height ? options.height : stages[0]->scene().height;
+    if (!stages[0]->device().is_cpu) runFor(kWakeMs, contenders[0].run);
     const std::vector<Times> times = takeTurns(contenders, options.rounds);
     for (size_t i = 0; i < 2; ++i) kernels[i]->msPerSample = spreadOf(times[i].ms);
     for (size_t i = 0; i < 2; ++i) kernels[i]->statistics = kernelStatistics(options.device, blobs[i].string());

@@ -1,5 +1,6 @@
 #include "frames.hpp"
 
+#include "../common/wake.hpp"
 #include "commands.hpp"
 
 namespace bench {
@@ -28,6 +29,7 @@ std::vector<FrameResult> benchFrames(Stage& stage, const FrameOptions& options) 
                                   return ms / options.samples;
                               }});
     }
+    if (!cpu) runFor(kWakeMs, [&] { return stage.pictureMs(MINIRT_INTEGRATOR_SCENE, 1); });
     const std::vector<Times> times = takeTurns(contenders, options.rounds);
     for (size_t i = 0; i < results.size(); ++i) {
         results[i].msPerSample = spreadOf(times[i].ms);

@@ -14,6 +14,7 @@ using namespace bench;
 
 struct Options {
     std::string scenes;
+    std::vector<uint32_t> subdivisions = {0};
     std::vector<uint32_t> knots = {1000, 70000, 1000000};
     std::string json;
     std::string device;
@@ -40,6 +41,11 @@ void addOptions(CLI::App& app, Options& o) {
     app.footer(
         "Examples:\n  minirt-bench\n  minirt-bench --scenes meshes --json bench.json\n  minirt-bench --frames still_life.json");
     app.add_option("--scenes", o.scenes, "Folder of OBJ files to trace (default: knots, see below)");
+    app.add_option("--subdivide", o.subdivisions,
+                   "Trace each of these meshes with its triangles cut into four so many times, for each number given")
+        ->delimiter(',')
+        ->check(CLI::Range(0u, 6u))
+        ->capture_default_str();
     app.add_option("--knots", o.knots, "Without --scenes: triangles of each knot")->delimiter(',')->capture_default_str();
     app.add_option("--frames", o.frames,
                    "Scenes (.json) or blobs (.mrt) to start, load and render; then meshes only where they are asked for");
@@ -165,7 +171,8 @@ bool run(const CLI::App& app, Options& o) {
     if (withKnots)
         for (uint32_t triangles : o.knots) one(knotMesh(triangles));
     if (!o.scenes.empty())
-        for (const std::filesystem::path& file : objFiles(o.scenes)) one(loadMesh(file));
+        for (const std::filesystem::path& file : objFiles(o.scenes))
+            for (uint32_t subdivisions : o.subdivisions) one(loadMesh(file, subdivisions));
     const std::vector<Scaling> scaling = scalingOf(rays);
     if (!scaling.empty()) {
         print(scaling);

@@ -25,6 +25,27 @@ Mesh flattened(const std::string& name, minirtc::Scene scene, minirtc::Mesh mesh
     return result;
 }
 
+/// Each triangle as four that meet at the middles of its edges.
+minirtc::Mesh subdivided(const minirtc::Mesh& mesh) {
+    minirtc::Mesh fine;
+    fine.path = mesh.path;
+    fine.positions = mesh.positions;
+    fine.faces.reserve(4 * mesh.faces.size());
+    for (const minirtc::Face& face : mesh.faces) {
+        const auto corner = [&](int k) { return face.corners[k % 3].position; };
+        const uint32_t middle = static_cast<uint32_t>(fine.positions.size());
+        for (int k = 0; k < 3; ++k) fine.positions.push_back(0.5 * (mesh.positions[corner(k)] + mesh.positions[corner(k + 1)]));
+        const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+            minirtc::Face triangle;
+            triangle.corners[0].position = a, triangle.corners[1].position = b, triangle.corners[2].position = c;
+            fine.faces.push_back(triangle);
+        };
+        for (uint32_t k = 0; k < 3; ++k) add(corner(static_cast<int>(k)), middle + k, middle + (k + 2) % 3);
+        add(middle, middle + 1, middle + 2);
+    }
+    return fine;
+}
+
 samples::Mesh knotOf(uint32_t triangles) {
     samples::TorusKnot shape;
     shape.sides = std::max(5, static_cast<int>(std::sqrt(triangles * 0.05625)));  // the sample's own proportions
@@ -43,11 +64,13 @@ std::vector<std::filesystem::path> objFiles(const std::filesystem::path& folder)
     return files;
 }
 
-Mesh loadMesh(const std::filesystem::path& path) {
+Mesh loadMesh(const std::filesystem::path& path, uint32_t subdivisions) {
     minirtc::Scene scene;
     minirtc::Diagnostics diagnostics;
     minirtc::Mesh mesh = minirtc::loadObj(path, false, scene, diagnostics);
-    return flattened(path.stem().string(), std::move(scene), std::move(mesh));
+    for (uint32_t i = 0; i < subdivisions; ++i) mesh = subdivided(mesh);
+    const std::string suffix = subdivisions > 0 ? " / " + std::to_string(subdivisions) : "";
+    return flattened(path.stem().string() + suffix, std::move(scene), std::move(mesh));
 }
 
 Mesh knotMesh(uint32_t triangles) {

@@ -19,8 +19,8 @@ struct Mesh {
 /// All OBJ files in `folder` and below, by name. Throws std::runtime_error where there is none.
 std::vector<std::filesystem::path> objFiles(const std::filesystem::path& folder);
 
-/// Throws minirtc::Error.
-Mesh loadMesh(const std::filesystem::path& path);
+/// `subdivisions`: times that each triangle is cut into four at the middles of its edges. Throws minirtc::Error.
+Mesh loadMesh(const std::filesystem::path& path, uint32_t subdivisions = 0);
 
 /// Of about `triangles` triangles, at least 100.
 Mesh knotMesh(uint32_t triangles);

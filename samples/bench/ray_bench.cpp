@@ -1,8 +1,8 @@
 #include "ray_bench.hpp"
 
 #include <algorithm>
-#include <functional>
 
+#include "../common/wake.hpp"
 #include "embree_rays.hpp"
 
 namespace bench {
@@ -32,14 +32,11 @@ Spread nsPerRay(size_t rays, const std::vector<double>& ms) {
     return spreadOf(costs);
 }
 
-/// A device that has waited for a while, for Embree or for its rays, runs slowly at first: what counts is the last of the runs that
-/// keep it busy for a moment.
-double awake(const std::function<double()>& run) {
-    constexpr double kBusyMs = 30;
-    const double start = nowMs();
-    double ms = run();
-    while (nowMs() - start < kBusyMs) ms = run();
-    return ms;
+/// What the last of some runs says that keep a GPU busy for a moment: it waits while the other's turn is set up.
+template <typename Run>
+double awake(const Run& run) {
+    constexpr double kTurnMs = 30;
+    return runFor(kTurnMs, run);
 }
 
 /// All that trace one mesh.
@@ -61,6 +58,7 @@ public:
         setRays(set);
         std::vector<Contender> contenders;
         std::vector<Times> times;
+        if (kernel_.isGpu()) runFor(kWakeMs, [&] { return kernel_.trace(set.anyHit); });
         for (const std::vector<Contender>& together : heats(set.anyHit)) {
             const std::vector<Times> taken = takeTurns(together, rounds_);
             contenders.insert(contenders.end(), together.begin(), together.end());

@@ -6,6 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "../common/wake.hpp"
+
 namespace cost {
 namespace {
 
@@ -183,6 +185,7 @@ std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& con
     if (running.empty() || running.front() != configurations.front())
         throw std::runtime_error("the scene's own settings cannot be rendered: " + failures_.front().reason);
     if (!reference_.random) takeAccuratePictures(running);
+    if (!scenes_.onCpu()) runFor(kWakeMs, [&] { return warmUp(running.front(), 1); });
     std::vector<Tally> tallies(running.size());
     std::vector<std::vector<Timing>> timings(running.size());
     uint32_t round = 0;

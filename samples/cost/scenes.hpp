@@ -47,6 +47,7 @@ public:
     /// How many were made ready.
     size_t count() const { return loaded_.size(); }
 
+    bool onCpu() const { return first_.info().is_cpu != 0; }
     const std::vector<Lever>& levers() const { return levers_; }
     /// Takes the table's place: as many levers in the same order, those of the bake unchanged.
     void setLevers(std::vector<Lever> levers) { levers_ = std::move(levers); }
