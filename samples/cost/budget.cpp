@@ -56,9 +56,17 @@ BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measur
     };
     // Where pictures are not random, all have the same noise, and what shows less of it misses bright sparks.
     const bool random = measurements.front().bias.standardError > 0;
-    const double noise = random ? noiseAt(m) : std::max(noiseAt(m), noiseAt(measurements.front()));
+    const size_t lever = findLever(levers, LeverKind::samples);
+    const bool ownButSamples = with(m.configuration, lever, own[lever]) == own;
+    const double noise = random || ownButSamples ? noiseAt(m) : std::max(noiseAt(m), noiseAt(measurements.front()));
     const double ms = msPerSample(levers, m, measurements.front()) * samples;
     return {m.configuration, samples, ms, systematicError(m, own) + noise};
+}
+
+double expectedError(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
+                     double moreSamples) {
+    const long samples = std::lround(samplesOf(levers, m.configuration) * moreSamples);
+    return expected(levers, measurements, m, static_cast<uint32_t>(std::max(samples, 1L))).relMse;
 }
 
 std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,

@@ -18,6 +18,10 @@ struct BudgetChoice {
 BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
                       uint32_t samples);
 
+/// The error expected of a measured configuration with `moreSamples` times as many samples as measured.
+double expectedError(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
+                     double moreSamples);
+
 /// Of all measured configurations, each with as many samples as fit `ms`, the one with the least error expected; of those with about as little, the one
 /// that changes the fewest settings. `pixelRatio`: pixels of the picture that is wanted over those of the measured ones. Nothing where not even one sample
 /// fits.
