@@ -346,6 +346,15 @@ TEST_CASE("what to do is said of the setting that the scene has") {
     CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).action == cost::Action::hardlyMatters);
 }
 
+TEST_CASE("an instruction names the setting to take") {
+    const auto said = [](const cost::Report& report) { return cost::instruction(report, report.comparisons.front()); };
+    CHECK(said(twoSettings(2, 1, 0.98, 0.01, 0.05, 0.12)) == "Keep exact Fresnel");
+    CHECK(said(twoSettings(1, 2, 1.02, 0.05, 0.01)) == "Upgrade to exact Fresnel");
+    CHECK(said(twoSettings(2, 1, 0.8, 0.01, 0.01)) == "Switch to Schlick's Fresnel");
+    CHECK(said(twoSettings(1, 2, 1.3, 0.01, 0.01)) == "No need for exact Fresnel");
+    CHECK(said(twoSettings(2, 0, 0.5, 0.01, 0.015)) == "Your choice: exact Fresnel or no Fresnel reflection");
+}
+
 TEST_CASE("a sentence says costs of what the scene has, and would cost of what it does not") {
     const auto said = [](const cost::Report& report) {
         return cost::sentence(report.levers[0], report.comparisons.front(), report.floor());

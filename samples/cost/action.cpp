@@ -62,6 +62,17 @@ std::vector<size_t> leadingOnes(const Report& report) {
     return order;
 }
 
+/// Of the settings that are a choice, the time of the one that saves the most.
+double mostTimeToChoose(const Report& report, const std::vector<size_t>& comparisons) {
+    double least = 1;
+    for (size_t i : comparisons) {
+        const Comparison& c = report.comparisons[i];
+        if (!isSamplesOrIntegrator(report.levers[c.lever]) && adviceOn(report, c).action == Action::choose)
+            least = std::min(least, c.relativeTime.median);
+    }
+    return least;
+}
+
 }  // namespace
 
 Advice adviceOn(const Report& report, const Comparison& c) {
@@ -71,6 +82,29 @@ Advice adviceOn(const Report& report, const Comparison& c) {
     if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
     if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
     return tradeAdvice(report.levers[c.lever], c, effect);
+}
+
+std::string instruction(const Report& report, const Comparison& c) {
+    const Lever& lever = report.levers[c.lever];
+    const std::string& own = lever.settings[lever.initial].words;
+    const std::string& other = lever.settings[c.sceneHasAccurate ? c.cheap : c.accurate].words;
+    switch (adviceOn(report, c).action) {
+        case Action::switchTo:
+            return "Switch to " + other;
+        case Action::couldSwitch:
+            return "You could switch to " + other;
+        case Action::upgrade:
+            return "Upgrade to " + other;
+        case Action::keep:
+            return "Keep " + own;
+        case Action::notNeeded:
+            return "No need for " + other;
+        case Action::choose:
+            return "Your choice: " + own + " or " + other;
+        case Action::hardlyMatters:
+            break;
+    }
+    return "Hardly matters: " + own + " or " + other;
 }
 
 std::string actionWords(Action action) {
@@ -95,10 +129,10 @@ std::vector<size_t> byAction(const Report& report) {
 }
 
 std::vector<size_t> findings(const Report& report) {
-    const std::vector<size_t> order = leadingOnes(report);
+    const std::vector<size_t> leading = leadingOnes(report);
     std::vector<size_t> chosen;
     const auto take = [&](const auto& fits) {
-        for (size_t i : order) {
+        for (size_t i : leading) {
             const bool taken = std::find(chosen.begin(), chosen.end(), i) != chosen.end();
             if (chosen.size() < 2 && !taken && fits(report.comparisons[i])) return chosen.push_back(i);
         }
@@ -108,7 +142,8 @@ std::vector<size_t> findings(const Report& report) {
     take([&](const Comparison& c) { return does(c, Action::upgrade); });
     // What the scene does not do by itself it need not be told to do without.
     take([&](const Comparison& c) { return c.sceneHasAccurate && does(c, Action::keep); });
-    take([&](const Comparison& c) { return c.sceneHasAccurate && does(c, Action::choose); });
+    const double most = mostTimeToChoose(report, leading);
+    take([&](const Comparison& c) { return does(c, Action::choose) && c.relativeTime.median == most; });
     for (size_t i = 0; i < 2; ++i) take([](const Comparison&) { return true; });
     return chosen;
 }

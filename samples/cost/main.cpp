@@ -110,9 +110,7 @@ void print(const cost::Report& report) {
     printAdvice("A better picture", betterPictureSentence(report), nullptr);
     for (size_t i : byAction(report)) {
         const cost::Comparison& c = report.comparisons[i];
-        if (c.leading)
-            std::cout << actionWords(adviceOn(report, c).action) << ": " << sentence(report.levers[c.lever], c, report.floor())
-                      << "\n";
+        if (c.leading) std::cout << instruction(report, c) << ". " << sentence(report.levers[c.lever], c, report.floor()) << "\n";
     }
     if (report.budgetMs > 0) std::cout << budgetSentence(report) << "\n";
 }

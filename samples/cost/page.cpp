@@ -36,8 +36,9 @@ std::string findingsList(const Report& report) {
     for (size_t i : findings(report)) {
         const Comparison& c = report.comparisons[i];
         const Action action = adviceOn(report, c).action;
-        items += element("li", "class=\"" + actionName(action) + "\"",
-                         chip(action) + " " + prose(sentence(report.levers[c.lever], c, report.floor())));
+        items += element(
+            "li", "class=\"" + actionName(action) + "\"",
+            "<b>" + prose(instruction(report, c)) + ".</b> " + prose(sentence(report.levers[c.lever], c, report.floor())));
     }
     return element("ul", "class=\"findings\"", items);
 }

@@ -81,7 +81,7 @@ std::string expectedRow(const Report& report, const HalfTime& half) {
                               "–", "–", "–", "–", "–"}));
 }
 
-std::vector<std::string> headings(const Report& report) {
+std::vector<std::string> figuresHeadings(const Report& report) {
     return {"time",
             "middle half of the repeats",
             "ms, as measured",
@@ -94,7 +94,7 @@ std::vector<std::string> headings(const Report& report) {
             "kernels, kB"};
 }
 
-std::string key(const Report& report) {
+std::string figuresKey(const Report& report) {
     std::string text = "Each row is named by what differs from the scene's own settings; the numbers are those of the plot. ";
     if (report.samples() < report.sceneSamples)
         text += "Measured with " + samplesWords(report.samples()) + ", <b>error</b> is that expected at the scene's own " +
@@ -113,7 +113,7 @@ std::string figuresSection(const Report& report) {
     std::string rows;
     for (size_t i : tableOrder(report)) rows += row(report, half, i) + (i == 0 ? expectedRow(report, half) : "");
     std::string head = "<th>settings</th>";
-    for (const std::string& heading : headings(report)) head += element("th", "scope=\"col\"", heading);
+    for (const std::string& heading : figuresHeadings(report)) head += element("th", "scope=\"col\"", heading);
     const std::string table =
         element("table", "class=\"figures\"", element("thead", "", element("tr", "", head)) + element("tbody", "", rows));
     return element("h2", "id=\"figures\"", "All figures") +
@@ -121,7 +121,7 @@ std::string figuresSection(const Report& report) {
                "details", "class=\"card\"",
                element("summary", "",
                        std::to_string(report.measurements.size()) + " choices of settings, each with its time and its errors") +
-                   element("div", "class=\"scroll\" tabindex=\"0\"", table) + key(report));
+                   element("div", "class=\"scroll\" tabindex=\"0\"", table) + figuresKey(report));
 }
 
 }  // namespace cost

@@ -64,7 +64,7 @@ std::string scale() {
            element("div", "class=\"steps soft\"", steps);
 }
 
-std::string key(const Report& report) {
+std::string galleryKey(const Report& report) {
     std::string text =
         "Right of each picture: how far its pixels are from the reference, in steps of a screen's 255. Black is too little to "
         "see.";
@@ -84,7 +84,7 @@ std::string gallerySection(const Report& report) {
     std::string pairs;
     for (size_t i : pictured(report))
         if (i > 0 || report.reference.random) pairs += picturePair(report, i);
-    return element("h2", "", "Pictures, and where they are wrong") + ownAndReference(report) + key(report) +
+    return element("h2", "", "Pictures, and where they are wrong") + ownAndReference(report) + galleryKey(report) +
            element("div", "class=\"pictures\"", pairs);
 }
 

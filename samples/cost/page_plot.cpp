@@ -43,11 +43,12 @@ struct Shown {
         const Comparison* c = report.comparisonOf(i);
         return c ? adviceOn(report, *c).action == Action::hardlyMatters : isLikeOwn(report, i);
     }
-    /// Whether it is worth a label: of each setting the leading choice.
+    /// Whether it is worth a label: of each setting the leading choice that changes the picture.
     bool isNamed(size_t i) const {
         const Comparison* c = report.comparisonOf(i);
         const bool onFront = std::find(report.front.begin(), report.front.end(), i) != report.front.end();
-        return i == 0 || i == advised || isHalf(i) || onFront || (!isPale(i) && (!c || c->leading));
+        return i == 0 || i == advised || isHalf(i) || onFront ||
+               (!isPale(i) && (!c || (c->leading && c->change != ErrorChange::none)));
     }
 };
 

@@ -1,5 +1,8 @@
 #include "page_settings.hpp"
 
+#include <algorithm>
+
+#include "action.hpp"
 #include "figures.hpp"
 #include "html.hpp"
 #include "page_gallery.hpp"
@@ -7,6 +10,11 @@
 
 namespace cost {
 namespace {
+
+/// An action in its colour.
+std::string chip(Action action) {
+    return "<span class=\"chip " + actionName(action) + "\">" + actionWords(action) + "</span>";
+}
 
 /// A cell; `label` names its column where a narrow page has no headings.
 std::string cell(const std::string& label, const std::string& content) {
@@ -18,7 +26,7 @@ std::string small(const std::string& text) {
 }
 
 /// The headings; pixels are counted only where noise does not hide them.
-std::vector<std::string> headings(const Report& report) {
+std::vector<std::string> settingsHeadings(const Report& report) {
     std::vector<std::string> names = {"Time", "Error", "Visibly changed pixels"};
     if (report.reference.random) names.pop_back();
     return names;
@@ -42,7 +50,7 @@ std::string pixelsContent(const Report& report, const Comparison& c) {
 
 std::string comparisonCells(const Report& report, const Comparison& c) {
     const Advice advice = adviceOn(report, c);
-    const std::vector<std::string> names = headings(report);
+    const std::vector<std::string> names = settingsHeadings(report);
     std::string cells =
         element("td", "class=\"tried\"",
                 "<b class=\"lever\">" + std::to_string(c.measurement) + "</b> " + escaped(report.nameOf(c.measurement)));
@@ -51,8 +59,10 @@ std::string comparisonCells(const Report& report, const Comparison& c) {
     return cells + element("td", "class=\"do\"", chip(advice.action) + small(advice.reason));
 }
 
-/// All comparisons of a lever, beside what the scene has.
-std::string leverRows(const Report& report, const std::vector<size_t>& comparisons) {
+/// All comparisons of a lever, the cheapest first, beside what the scene has.
+std::string leverRows(const Report& report, std::vector<size_t> comparisons) {
+    std::sort(comparisons.begin(), comparisons.end(),
+              [&](size_t a, size_t b) { return report.comparisons[a].measurement < report.comparisons[b].measurement; });
     const Lever& lever = report.levers[report.comparisons[comparisons.front()].lever];
     std::string rows;
     for (size_t i : comparisons) {
@@ -66,7 +76,7 @@ std::string leverRows(const Report& report, const std::vector<size_t>& compariso
 }
 
 std::string ownRow(const Report& report) {
-    const std::vector<std::string> names = headings(report);
+    const std::vector<std::string> names = settingsHeadings(report);
     std::string cells = element("th", "scope=\"row\" colspan=\"2\"", "<b class=\"own\">0</b> the scene's own settings");
     cells += cell(names[0], "100\u00a0%") + cell(names[1], prose(errorFigure(report.errorOf(0), report.floor())));
     if (names.size() > 2) cells += cell("", "");
@@ -75,7 +85,7 @@ std::string ownRow(const Report& report) {
 
 std::string table(const Report& report) {
     std::string head = element("th", "scope=\"col\"", "Setting") + element("th", "scope=\"col\"", "Tried instead");
-    for (const std::string& name : headings(report)) head += element("th", "scope=\"col\"", name);
+    for (const std::string& name : settingsHeadings(report)) head += element("th", "scope=\"col\"", name);
     head += element("th", "scope=\"col\"", "What to do");
     std::string bodies = ownRow(report);
     std::vector<size_t> group;
@@ -99,25 +109,24 @@ std::string leftOut(const Report& report) {
     return items.empty() ? "" : element("ul", "class=\"left-out soft\"", items);
 }
 
-std::string key(const Report& report) {
+std::string settingsKey(const Report& report) {
     std::string text =
-        "<b>Time</b>: compared with the scene's own settings; beneath it, from where to where half of all repeats lie. "
+        "<b>Time</b>: compared with the scene's own settings; beneath it, the middle half of all repeats. "
         "<b>Error</b>: at the scene's own " +
         samplesWords(report.sceneSamples) + ".";
-    text += " <b>≤</b>: no larger than what the error of the reference itself can make (" + number(report.floor()) +
-            "), and so not to be believed.";
+    bool marked = false;
+    for (size_t i = 0; i < report.singles; ++i) marked = marked || report.errorOf(i) <= report.floor();
+    if (marked)
+        text += " <b>≤</b>: no larger than what the error of the reference itself can make (" + number(report.floor()) +
+                "), and so not to be believed.";
     return element("p", "class=\"soft\"", text + " <code>minirtc levers</code> tells how to set each.");
 }
 
 }  // namespace
 
-std::string chip(Action action) {
-    return "<span class=\"chip " + actionName(action) + "\">" + actionWords(action) + "</span>";
-}
-
 std::string settingsSection(const Report& report) {
     return element("h2", "id=\"settings\"", "Each setting: what the scene has, and what else there is") + table(report) +
-           key(report) + leftOut(report);
+           settingsKey(report) + leftOut(report);
 }
 
 }  // namespace cost

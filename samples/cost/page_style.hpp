@@ -28,6 +28,7 @@ figcaption { margin-top: .25rem; }
 .findings { margin: 1rem 0; padding: 0; list-style: none; display: grid; gap: .6rem; }
 .findings li { border-left: 4px solid var(--rule); padding: .1rem .8rem; }
 .findings .switch, .findings .upgrade { border-left-color: var(--change); } .findings .keep { border-left-color: var(--keep); } .findings .choose { border-left-color: var(--choose); }
+.findings .switch b, .findings .upgrade b { color: var(--change); } .findings .keep b { color: var(--keep); } .findings .choose b { color: var(--choose); }
 .warning { color: var(--warn); }
 .howto { padding: .3rem .9rem; margin: 1rem 0; }
 pre { margin: .3rem 0; padding: .5rem .7rem; border: 1px solid var(--rule); border-radius: 4px; background: var(--paper); font-size: .85rem; white-space: pre-wrap; overflow-wrap: anywhere; }
