@@ -100,11 +100,11 @@ std::string instruction(const Report& report, const Comparison& c) {
         case Action::notNeeded:
             return "No need for " + other;
         case Action::choose:
-            return "Your choice: " + own + " or " + other;
+            return "Your choice";
         case Action::hardlyMatters:
             break;
     }
-    return "Hardly matters: " + own + " or " + other;
+    return "Hardly matters";
 }
 
 std::string actionWords(Action action) {

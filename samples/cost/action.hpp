@@ -22,7 +22,7 @@ struct Advice {
 /// What to do about the setting that a comparison tries in place of the scene's own.
 Advice adviceOn(const Report& report, const Comparison& comparison);
 
-/// The same in words that name the settings: "Keep exact Fresnel", "Switch to 12 bounces", "Your choice: exact Fresnel or no Fresnel reflection".
+/// The same in words that name the settings: "Keep exact Fresnel", "Switch to 12 bounces", "Your choice".
 std::string instruction(const Report& report, const Comparison& comparison);
 
 /// "switch", "could switch", "upgrade", "keep", "not needed", "your choice", "hardly matters".

@@ -60,9 +60,9 @@ std::string timeText(const Report& report) {
                        std::to_string(report.measurements.front().repeats) +
                        " repeats, in rounds in which all settings take turns. From these the drift of whole rounds is taken "
                        "out. It is compared by the ratios of all pairs of repeats; one whose middle half includes 1 is called "
-                       "the same. On the line of the "
-                       "plot the middle half is taken twice as wide, since many settings are compared there. Pipelines are "
-                       "created before; "
+                       "the same. On the line of the plot is nothing that is faster by less than twice what the repeats scatter, "
+                       "since many settings are "
+                       "compared there. Pipelines are created before; "
                        "a driver that caches them makes their time smaller.") +
            element("p", "",
                    prose(number(report.prepareSeconds) + " of " + number(report.seconds) +

@@ -188,9 +188,8 @@ std::string legend(const Shown& shown) {
     if (any([&](size_t i) { return shown.isPale(i); }))
         items += legendItem("lever pale", markSvg(Mark::disc, 6, 6, 2.5), "hardly matters");
     if (shown.report.front.size() > 1)
-        items +=
-            legendItem("front-line", "<path d=\"M0 6H12\"/>",
-                       "surely beaten by nothing: each of these is surely faster than the next one, and surely less accurate");
+        items += legendItem("front-line", "<path d=\"M0 6H12\"/>",
+                            "the best found: further along, a picture takes longer and is surely more accurate");
     return element("ul", "class=\"legend\"", items);
 }
 

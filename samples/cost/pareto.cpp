@@ -18,13 +18,10 @@ bool surelyLess(const Spread& a, const Spread& b) {
     return std::log(b.median / a.median) > kWidened * std::hypot(scatter(a), scatter(b));
 }
 
-/// A time that cannot be told from that of the scene's own settings counts as that.
-Spread timeOf(const Measurement& m) {
-    return covers(m.slowdown, 1) ? Spread{1, 1, 1} : m.slowdown;
-}
-
-bool surelyFaster(const Measurement& a, const Measurement& b) {
-    return timeOf(a).median * (1 + kSameTime) < timeOf(b).median && surelyLess(timeOf(a), timeOf(b));
+/// Over that of the scene's own settings; what is faster than these by chance, or cannot be told from them, is none.
+double timeOf(const Measurement& m) {
+    const bool byChance = m.slowdown.median < 1 && !surelyLess(m.slowdown, {1, 1, 1});
+    return byChance || covers(m.slowdown, 1) ? 1 : m.slowdown.median;
 }
 
 /// By its error, or by pixels that look wrong at the same samples where the errors of few samples hide them.
@@ -50,14 +47,15 @@ std::vector<size_t> surelyOnFront(const Report& report) {
     for (size_t i = 1; i < report.measurements.size(); ++i)
         if (!isLikeOwn(report, i)) order.push_back(i);
     std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-        const double timeA = timeOf(report.measurements[a]).median;
-        const double timeB = timeOf(report.measurements[b]).median;
+        const double timeA = timeOf(report.measurements[a]);
+        const double timeB = timeOf(report.measurements[b]);
         return timeA != timeB ? timeA < timeB : report.errorOf(a) < report.errorOf(b);
     });
     std::vector<size_t> front;
     for (size_t i : order) {
         if (!front.empty() && !surelyMoreAccurate(report, i, front.back())) continue;
-        while (!front.empty() && !surelyFaster(report.measurements[front.back()], report.measurements[i])) front.pop_back();
+        const double time = timeOf(report.measurements[i]);
+        while (!front.empty() && timeOf(report.measurements[front.back()]) * (1 + kSameTime) >= time) front.pop_back();
         front.push_back(i);
     }
     return front;
