@@ -827,7 +827,13 @@ TEST_CASE("what halves the time is marked in the plot and in the table, hollow w
     REQUIRE(cost::halfTime(report).measurement == 3);  // 2 samples of 4, for 32 of 64
     std::string html = cost::page(report);
     CHECK(contains(html, "<g class=\"half\"><title>3: 2 samples"));
-    CHECK(contains(html, "■ half the time"));
+    const auto inSettings = [&](const std::string& part) {
+        const size_t from = html.find("class=\"choices\"");
+        return contains(html.substr(from, html.find("</tbody>", from) - from), part);
+    };
+    CHECK(inSettings("<b class=\"half\">3</b> 32 samples a pixel <span class=\"badge\">■ half the time"));
+    CHECK(inSettings("−50\u00a0%"));
+    CHECK(inSettings(">" + cost::number(report.errorOf(3)) + "<"));
     CHECK_FALSE(contains(html, "□"));
     report.measurements.erase(report.measurements.begin() + 5);
     report.measurements.erase(report.measurements.begin() + 3);
@@ -838,7 +844,8 @@ TEST_CASE("what halves the time is marked in the plot and in the table, hollow w
     REQUIRE_FALSE(half.measurement);
     html = cost::page(report);
     CHECK(contains(html, "<g class=\"half\"><title>½: 32 samples a pixel"));
-    CHECK(contains(html, "□ half the time, expected"));
+    CHECK(inSettings("<b class=\"half\">½</b> 32 samples a pixel <span class=\"badge\">□ half the time, expected"));
+    CHECK(inSettings(">" + cost::number(half.choice->relMse) + "<"));
     CHECK(contains(html, "expected, not measured"));
     CHECK_FALSE(contains(html, "■"));
     CHECK(contains(html, "<td>" + cost::number(half.choice->relMse) + "</td>"));

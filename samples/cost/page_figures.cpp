@@ -4,7 +4,6 @@
 
 #include "commands.hpp"
 #include "figures.hpp"
-#include "half_time.hpp"
 #include "html.hpp"
 #include "page_plot.hpp"
 #include "recommendation.hpp"
@@ -46,13 +45,9 @@ std::string biasCell(const Report& report, const Measurement& m) {
     return bias > 0 ? number(bias) : "none seen";
 }
 
-/// What marks a choice in the plot as well.
 std::string badges(const Report& report, const HalfTime& half, size_t i) {
-    std::string out;
-    if (i == recommended(report)) out += " <span class=\"badge\">★ recommended</span>";
-    if (half.isShown() && half.measurement == i)
-        out += std::string(" <span class=\"badge\">■ ") + (half.fits ? "half the time" : "the fastest") + "</span>";
-    return out;
+    return (i == recommended(report) ? recommendedBadge() : "") +
+           (half.isShown() && half.measurement == i ? halfTimeBadge(half) : "");
 }
 
 std::string row(const Report& report, const HalfTime& half, size_t i) {
@@ -73,8 +68,8 @@ std::string row(const Report& report, const HalfTime& half, size_t i) {
 /// What halves the time, where it was not measured.
 std::string expectedRow(const Report& report, const HalfTime& half) {
     if (!half.isShown() || half.measurement) return "";
-    const std::string name = "<b class=\"half\">½</b> " + escaped(changesInWords(report, *half.choice)) +
-                             " <span class=\"badge\">□ half the time, expected</span>";
+    const std::string name = std::string("<b class=\"half\">") + kExpectedNumber + "</b> " +
+                             escaped(changesInWords(report, *half.choice)) + halfTimeBadge(half);
     return element("tr", "",
                    element("th", "scope=\"row\"", name) +
                        cells({relativeTime(half.relativeTime()), "–", "–", errorFigure(half.choice->relMse, report.floor()), "–",

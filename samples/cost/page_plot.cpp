@@ -7,7 +7,6 @@
 #include "action.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
-#include "half_time.hpp"
 #include "html.hpp"
 #include "pareto.hpp"
 #include "plot.hpp"
@@ -26,9 +25,6 @@ struct Layout {
 constexpr Layout kNarrow = {"narrow", 340, 360, 12, 0};
 constexpr Layout kWide = {"wide", 860, 480, 18, 44};
 
-/// What halves the time, where it was not measured; it stands behind all measurements.
-constexpr const char* kExpectedNumber = "½";
-
 /// What the plot shows, worked out once.
 struct Shown {
     const Report& report;
@@ -43,12 +39,15 @@ struct Shown {
         const Comparison* c = report.comparisonOf(i);
         return c ? adviceOn(report, *c).action == Action::hardlyMatters : isLikeOwn(report, i);
     }
-    /// Whether it is worth a label: of each setting the leading choice that changes the picture.
+    /// Of each setting the leading choice that changes the picture, and all numbers of samples.
+    bool isWorthNaming(const Comparison& c) const {
+        return (c.leading || report.levers[c.lever].kind == LeverKind::samples) && c.change != ErrorChange::none;
+    }
+    /// Whether a measurement is worth a label.
     bool isNamed(size_t i) const {
         const Comparison* c = report.comparisonOf(i);
         const bool onFront = std::find(report.front.begin(), report.front.end(), i) != report.front.end();
-        return i == 0 || i == advised || isHalf(i) || onFront ||
-               (!isPale(i) && (!c || (c->leading && c->change != ErrorChange::none)));
+        return i == 0 || i == advised || isHalf(i) || onFront || (!isPale(i) && (!c || isWorthNaming(*c)));
     }
 };
 
@@ -197,6 +196,15 @@ std::string legend(const Shown& shown) {
 
 std::string groupOf(const Report& report, size_t measurement) {
     return measurement == 0 ? "own" : measurement < report.singles ? "lever" : "combination";
+}
+
+std::string recommendedBadge() {
+    return " <span class=\"badge\">★ recommended</span>";
+}
+
+std::string halfTimeBadge(const HalfTime& half) {
+    const std::string name = half.fits ? "half the time" : "the fastest";
+    return " <span class=\"badge\">" + (half.measurement ? "■ " + name : "□ " + name + ", expected") + "</span>";
 }
 
 std::string plotSection(const Report& report) {

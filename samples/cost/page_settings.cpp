@@ -3,10 +3,13 @@
 #include <algorithm>
 
 #include "action.hpp"
+#include "commands.hpp"
 #include "figures.hpp"
+#include "half_time.hpp"
 #include "html.hpp"
 #include "page_gallery.hpp"
 #include "page_plot.hpp"
+#include "recommendation.hpp"
 
 namespace cost {
 namespace {
@@ -32,8 +35,7 @@ std::vector<std::string> settingsHeadings(const Report& report) {
     return names;
 }
 
-std::string timeContent(const Comparison& c) {
-    const Spread& time = c.relativeTime;
+std::string timeContent(const Spread& time) {
     return prose(measurable(time) ? relativeTime(time.median) : "same") +
            small(relativeTime(time.lower) + " to " + relativeTime(time.upper));
 }
@@ -54,7 +56,7 @@ std::string comparisonCells(const Report& report, const Comparison& c) {
     std::string cells =
         element("td", "class=\"tried\"",
                 "<b class=\"lever\">" + std::to_string(c.measurement) + "</b> " + escaped(report.nameOf(c.measurement)));
-    cells += cell(names[0], timeContent(c)) + cell(names[1], errorContent(report, c));
+    cells += cell(names[0], timeContent(c.relativeTime)) + cell(names[1], errorContent(report, c));
     if (names.size() > 2) cells += cell(names[2], pixelsContent(report, c));
     return cells + element("td", "class=\"do\"", chip(advice.action) + small(advice.reason));
 }
@@ -75,19 +77,50 @@ std::string leverRows(const Report& report, std::vector<size_t> comparisons) {
     return element("tbody", "", rows);
 }
 
-std::string ownRow(const Report& report) {
+/// A row of a whole choice: the scene's own settings, or one of the answers at the top of the page. `cells`: time, error, pixels.
+std::string choiceRow(const Report& report, const std::string& name, const std::vector<std::string>& cells) {
     const std::vector<std::string> names = settingsHeadings(report);
-    std::string cells = element("th", "scope=\"row\" colspan=\"2\"", "<b class=\"own\">0</b> the scene's own settings");
-    cells += cell(names[0], "100\u00a0%") + cell(names[1], prose(errorFigure(report.errorOf(0), report.floor())));
-    if (names.size() > 2) cells += cell("", "");
-    return element("tbody", "class=\"own-row\"", element("tr", "", cells + cell("", "")));
+    std::string row = element("th", "scope=\"row\" colspan=\"2\"", name);
+    for (size_t i = 0; i < names.size(); ++i) row += cell(cells[i].empty() ? "" : names[i], cells[i]);
+    return element("tr", "", row + cell("", ""));
+}
+
+std::string numbered(const std::string& cssClass, const std::string& number, const std::string& words) {
+    return "<b class=\"" + cssClass + "\">" + number + "</b> " + escaped(words);
+}
+
+std::string recommendedRow(const Report& report) {
+    const size_t i = recommended(report);
+    if (i == 0) return "";
+    const Measurement& m = report.measurements[i];
+    return choiceRow(report, numbered(groupOf(report, i), std::to_string(i), report.nameOf(i)) + recommendedBadge(),
+                     {timeContent(m.slowdown), prose(errorFigure(report.errorOf(i), report.floor())),
+                      prose(percent(std::max(moreWrongPixels(report, m), 0.0)))});
+}
+
+std::string halfTimeRow(const Report& report) {
+    const HalfTime half = halfTime(report);
+    if (!half.isShown()) return "";
+    const std::string number = half.measurement ? std::to_string(*half.measurement) : kExpectedNumber;
+    const std::string time = half.measurement ? timeContent(report.measurements[*half.measurement].slowdown)
+                                              : prose(relativeTime(half.relativeTime())) + small("expected");
+    return choiceRow(report, numbered("half", number, changesInWords(report, *half.choice)) + halfTimeBadge(half),
+                     {time, prose(errorFigure(half.choice->relMse, report.floor())),
+                      half.wrongPixels > 0 ? prose(percent(half.wrongPixels)) : "–"});
+}
+
+/// The scene's own settings, and what the page answers.
+std::string choicesBody(const Report& report) {
+    const std::string own = choiceRow(report, numbered("own", "0", report.nameOf(0)),
+                                      {"100\u00a0%", prose(errorFigure(report.errorOf(0), report.floor())), ""});
+    return element("tbody", "class=\"choices\"", own + recommendedRow(report) + halfTimeRow(report));
 }
 
 std::string table(const Report& report) {
     std::string head = element("th", "scope=\"col\"", "Setting") + element("th", "scope=\"col\"", "Tried instead");
     for (const std::string& name : settingsHeadings(report)) head += element("th", "scope=\"col\"", name);
     head += element("th", "scope=\"col\"", "What to do");
-    std::string bodies = ownRow(report);
+    std::string bodies = choicesBody(report);
     std::vector<size_t> group;
     const std::vector<size_t> order = byAction(report);
     for (size_t at = 0; at < order.size(); ++at) {

@@ -42,7 +42,7 @@ pre span { display: block; padding-left: 1.5em; text-indent: -1.5em; }
 .settings tbody > tr:first-child > * { border-top: 1px solid var(--rule); } .settings th, .settings td { border-bottom: 0; vertical-align: baseline; }
 .settings tbody th, .settings .tried, .settings .do { text-align: left; white-space: normal; } .settings tbody th { font-weight: 600; }
 .settings thead th:nth-child(2), .settings thead th:last-child { text-align: left; }
-.settings .own-row th, .settings small { font-weight: 400; } .settings .do { min-width: 12.5rem; padding-left: 1.2rem; } .settings thead th { max-width: 7rem; }
+.settings .choices th, .settings small { font-weight: 400; } .settings .do { min-width: 12.5rem; padding-left: 1.2rem; } .settings thead th { max-width: 7rem; }
 @media (max-width: 46rem) {
   .settings, .settings tbody, .settings tr, .settings th, .settings td { display: block; text-align: left; white-space: normal; }
   .settings { border: 0; background: none; } .settings thead { display: none; }
