@@ -467,6 +467,16 @@ TEST_CASE("numbers have three significant digits") {
     CHECK(cost::number(2.5e-7) == "2.5e-07");
 }
 
+TEST_CASE("letters are counted, not their bytes, and times are written against those of the scene") {
+    CHECK(cost::letterCount("2 × Möller–Trumbore") == 19);
+    CHECK(cost::relativeTime(0.7) == "−30 %");
+    CHECK(cost::relativeTime(1.041) == "+4.1 %");
+    CHECK(cost::relativeTime(2.06) == "2.06 ×");
+    CHECK(cost::errorChange(0.01, 0.02, 0) == "the error rises from 0.0100 to 0.0200");
+    CHECK(cost::errorChange(0.01, 0.001, 0.002) == "the error falls from 0.0100 to ≤ 0.00200");
+    CHECK(cost::errorChange(0.01, 0.010001, 0) == "the error stays at 0.0100");
+}
+
 TEST_CASE("each lever moves alone, and idle ones not at all") {
     const std::vector<cost::Lever> levers = {fresnelLever(), idleLever(), samplesLever()};
     const std::vector<cost::Configuration> all = cost::oneAtATime(levers);
