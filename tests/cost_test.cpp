@@ -343,6 +343,11 @@ TEST_CASE("what to do is said of the setting that the scene has") {
     CHECK(advice(twoSettings(kNone, kExact, 2, 0.015, 0.01)).action == cost::Action::choose);
     CHECK(advice(twoSettings(kExact, kNone, 0.96, 0.01, 0.0101)).action == cost::Action::keep);  // too little time to choose
     CHECK(advice(twoSettings(kExact, kSchlick, 1.002, 0.01, 0.01)).reason == "no difference");
+    cost::Report mixed = twoSettings(kSchlick, kExact, 1.5, 0.01, 0.012, 0);
+    mixed.measurements[0].sameSamples.wrongPixels = 0.05;
+    mixed.comparisons = cost::compareLevers(mixed.levers, mixed.measurements, 1);
+    CHECK(advice(mixed).action == cost::Action::choose);
+    CHECK(advice(mixed).reason == "fewer wrong pixels, but more error");
     CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).action == cost::Action::hardlyMatters);
 }
 

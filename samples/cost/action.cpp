@@ -12,6 +12,7 @@ namespace {
 struct Effect {
     bool faster = false, slower = false;
     bool better = false, worse = false;
+    bool mixed = false;  // less error, but more pixels that are wrong, or the other way round
 };
 
 Effect effectOf(const Comparison& c) {
@@ -23,6 +24,7 @@ Effect effectOf(const Comparison& c) {
     const bool accurateIsBetter = c.change == ErrorChange::less || c.wrongPixels > kNoticeablePixels;
     effect.better = accurateIsBetter != c.sceneHasAccurate;
     effect.worse = !effect.better;
+    effect.mixed = accurateIsBetter && c.change == ErrorChange::more;
     return effect;
 }
 
@@ -79,6 +81,8 @@ Advice adviceOn(const Report& report, const Comparison& c) {
     if (savesForNothing(report, c.measurement)) return savingAdvice(report, c);
     const Effect effect = effectOf(c);
     if (!effect.better && !effect.worse) return sameErrorAdvice(c, effect);
+    if (effect.mixed)
+        return {Action::choose, effect.better ? "fewer wrong pixels, but more error" : "less error, but more wrong pixels"};
     if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
     if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
     return tradeAdvice(report.levers[c.lever], c, effect);
