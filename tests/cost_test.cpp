@@ -470,6 +470,7 @@ TEST_CASE("numbers have three significant digits") {
     CHECK(cost::number(1234) == "1234");
     CHECK(cost::number(0) == "0");
     CHECK(cost::number(2.5e-7) == "2.5e-07");
+    CHECK(cost::number(6.9e-5) == "0.0000690");
 }
 
 TEST_CASE("letters are counted, not their bytes, and times are written against those of the scene") {
@@ -540,6 +541,16 @@ TEST_CASE("a setting that misses bright sparks is not expected to have less nois
     CHECK(error() == doctest::Approx(0.0138));              // the noise of exact Fresnel at 4 samples, and the bias
     report.measurements.front().bias.standardError = 1e-5;  // of random pictures settings do differ in their noise
     CHECK(error() == doctest::Approx(0.0042));
+}
+
+TEST_CASE("random noise is expected to fall as the number of samples, whatever a few of them showed") {
+    cost::Report report = sampleReport();
+    report.measurements[3].error.relMse = 0.04;  // 2 samples: a power of 2
+    report.measurements[4].error.relMse = 0.0025;
+    const auto error = [&] { return cost::expected(report.levers, report.measurements, report.measurements[0], 64).relMse; };
+    CHECK(error() == doctest::Approx(0.01 / 256));
+    report.measurements[0].bias.standardError = 1e-5;
+    CHECK(error() == doctest::Approx(0.01 / 16));
 }
 
 TEST_CASE("half the time is bought with the least error, or it is said that nothing measured halves it") {

@@ -13,8 +13,8 @@ struct BudgetChoice {
     double relMse = 0;  // expected
 };
 
-/// What is expected of a measured configuration with so many samples a pixel: time grows with them, the bias stays, the rest of the error falls with a power
-/// of them that the lever of the samples shows.
+/// What is expected of a measured configuration with so many samples a pixel: time grows with them, the bias stays, the rest of the error falls as
+/// their number where it is random, else with a power of them that the lever of the samples shows.
 BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
                       uint32_t samples);
 

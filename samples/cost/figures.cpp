@@ -33,7 +33,7 @@ std::string percent(double share) {
 std::string number(double value) {
     if (value == 0) return "0";
     const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    return magnitude < -4 ? significant(value, 2) : fixed(value, std::max(2 - magnitude, 0));
+    return magnitude < -6 ? significant(value, 2) : fixed(value, std::max(2 - magnitude, 0));
 }
 
 std::string errorFigure(double error, double floor) {
