@@ -349,6 +349,7 @@ TEST_CASE("what to do is said of the setting that the scene has") {
     CHECK(advice(mixed).action == cost::Action::choose);
     CHECK(advice(mixed).reason == "fewer wrong pixels, but more error");
     CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).action == cost::Action::hardlyMatters);
+    CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).reason == "not surely 5 % faster");
 }
 
 TEST_CASE("an instruction names the setting to take") {

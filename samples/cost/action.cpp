@@ -42,7 +42,8 @@ Advice savingAdvice(const Report& report, const Comparison& c) {
 Advice sameErrorAdvice(const Comparison& c, const Effect& effect) {
     if (effect.slower && c.relativeTime.median >= 1 + kLeastSaving)
         return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "slower for nothing"};
-    return {Action::hardlyMatters, effect.slower || effect.faster ? "a little time only" : "no difference"};
+    if (effect.faster) return {Action::hardlyMatters, "not surely " + percent(kLeastSaving) + " faster"};
+    return {Action::hardlyMatters, effect.slower ? "a little slower" : "no difference"};
 }
 
 /// Where the better picture takes more time: whether the error changes by the larger factor decides.
