@@ -862,6 +862,10 @@ TEST_CASE("what halves the time is marked in the plot and in the table, hollow w
     CHECK(inSettings("−50\u00a0%"));
     CHECK(inSettings(">" + cost::number(report.errorOf(3)) + "<"));
     CHECK_FALSE(contains(html, "□"));
+    cost::Report unsteady = report;
+    unsteady.measurements[3].slowdown = {0.5, 0.4, 1.4};  // which the table calls the same time
+    CHECK_FALSE(cost::halfTime(unsteady).measurement);
+    CHECK(contains(cost::halfTimeSentence(unsteady), "about 50 % less time"));
     report.measurements.erase(report.measurements.begin() + 5);
     report.measurements.erase(report.measurements.begin() + 3);
     report.singles = 4;

@@ -52,7 +52,7 @@ uint32_t samplesAtScene(const Report& report, const Measurement& m) {
     return static_cast<uint32_t>(std::lround(samplesOf(report.levers, m.configuration) * report.moreSamples()));
 }
 
-/// The measurement with the settings of a choice and about as many samples.
+/// The measurement with the settings of a choice and about as many samples, where its time could be told from that of the scene's own settings.
 std::optional<size_t> measurementOf(const Report& report, const BudgetChoice& choice) {
     constexpr double kAbout = 0.05;
     const size_t lever = findLever(report.levers, LeverKind::samples);
@@ -60,7 +60,7 @@ std::optional<size_t> measurementOf(const Report& report, const BudgetChoice& ch
         const Measurement& m = report.measurements[i];
         const bool sameLevers = with(m.configuration, lever, choice.configuration[lever]) == choice.configuration;
         const double samples = samplesAtScene(report, m);
-        if (sameLevers && std::abs(samples - choice.samples) <= kAbout * choice.samples) return i;
+        if (sameLevers && measurable(m.slowdown) && std::abs(samples - choice.samples) <= kAbout * choice.samples) return i;
     }
     return std::nullopt;
 }
