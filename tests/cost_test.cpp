@@ -878,6 +878,7 @@ TEST_CASE("what halves the time is marked in the plot and in the table, hollow w
     CHECK(inSettings("<b class=\"half\">½</b> 32 samples a pixel <span class=\"badge\">□ half the time, expected"));
     CHECK(inSettings(">" + cost::number(half.choice->relMse) + "<"));
     CHECK(contains(html, "expected, not measured"));
+    CHECK_FALSE(contains(html, "<li><b class=\"half\">½"));  // once is enough
     CHECK_FALSE(contains(html, "■"));
     CHECK(contains(html, "<td>" + cost::number(half.choice->relMse) + "</td>"));
     CHECK(contains(cost::halfTimeSentence(report), "Take 32 samples a pixel: about 50 % less time"));

@@ -145,10 +145,12 @@ Plot plotOf(const Shown& shown, const Layout& layout) {
 /// The names of numbers that stand alone in the plot.
 std::string numbersList(const Plot& plot, const std::vector<size_t>& points) {
     std::string items;
-    for (size_t i : points)
+    for (size_t i : points) {
+        if (plot.points[i].number == kExpectedNumber) continue;  // the legend names it
         items += element(
             "li", "",
             "<b class=\"" + plot.points[i].group + "\">" + plot.points[i].number + "</b> " + escaped(plot.points[i].name));
+    }
     return items.empty() ? "" : element("ul", "class=\"numbers " + plot.cssClass + "\"", items);
 }
 
