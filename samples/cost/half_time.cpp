@@ -54,7 +54,7 @@ uint32_t samplesAtScene(const Report& report, const Measurement& m) {
 
 /// The measurement with the settings of a choice and about as many samples, where its time could be told from that of the scene's own settings.
 std::optional<size_t> measurementOf(const Report& report, const BudgetChoice& choice) {
-    constexpr double kAbout = 0.05;
+    constexpr double kAbout = 0.1;
     const size_t lever = findLever(report.levers, LeverKind::samples);
     for (size_t i = 0; i < report.measurements.size(); ++i) {
         const Measurement& m = report.measurements[i];
