@@ -343,6 +343,8 @@ TEST_CASE("what to do is said of the setting that the scene has") {
     CHECK(advice(twoSettings(kNone, kExact, 2, 0.015, 0.01)).action == cost::Action::choose);
     CHECK(advice(twoSettings(kExact, kNone, 0.96, 0.01, 0.0101)).action == cost::Action::keep);  // too little time to choose
     CHECK(advice(twoSettings(kExact, kSchlick, 1.002, 0.01, 0.01)).reason == "no difference");
+    CHECK(advice(twoSettings(kSchlick, kExact, 1, 0.0103, 0.01)).reason == "only a little better");
+    CHECK(advice(twoSettings(kSchlick, kExact, 1, 0.013, 0.01)).reason == "better for no time");
     cost::Report mixed = twoSettings(kSchlick, kExact, 1.5, 0.01, 0.012, 0);
     mixed.measurements[0].sameSamples.wrongPixels = 0.05;
     mixed.comparisons = cost::compareLevers(mixed.levers, mixed.measurements, 1);

@@ -1,6 +1,7 @@
 #include "action.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "figures.hpp"
 #include "recommendation.hpp"
@@ -84,6 +85,8 @@ Advice adviceOn(const Report& report, const Comparison& c) {
     if (!effect.better && !effect.worse) return sameErrorAdvice(c, effect);
     if (effect.mixed)
         return {Action::choose, effect.better ? "fewer wrong pixels, but more error" : "less error, but more wrong pixels"};
+    const bool little = std::abs(c.removed) < kLeastSaving && c.wrongPixels <= kNoticeablePixels;
+    if (effect.better && !effect.slower && little) return {Action::hardlyMatters, "only a little better"};
     if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
     if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
     return tradeAdvice(report.levers[c.lever], c, effect);
