@@ -14,7 +14,7 @@ Written by `scripts/accuracy` from measurements of `minirt-cost`; run it again o
 ([$devices[] | "\(.name): \(.device), \(.driver), \(.date)."] | join(" ")) + (if $note == "" then "" else " " + $note end) + "
 
 Each lever is moved alone from what the scene says by itself. **Error** is relMSE, the mean of (x − r)² / (r² + 0.01) without the worst
-0.1 % of the pixels, against a reference with every lever at its most accurate; of path tracers, as expected at the scene's own samples, where bias has
+0.1 % of the pixels, against a reference with every lever at its most accurate; as expected at the scene's own samples, where bias has
 stayed and noise has fallen. **Time** is the accurate setting's over the cheap one's: the median, and the middle half, of all pairs of repeats, which were
 measured in rounds in which all settings take turns; the drift of whole rounds is taken out. A pixel is **wrong** when its 8-bit sRGB value is off by more
 than 2 steps; given where pictures have no noise, by how many more the cheap setting gets wrong at the same samples.

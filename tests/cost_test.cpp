@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "../samples/cost/action.hpp"
+#include "../samples/cost/better_picture.hpp"
 #include "../samples/cost/commands.hpp"
 #include "../samples/cost/confirmation.hpp"
 #include "../samples/cost/figures.hpp"
@@ -18,6 +20,7 @@
 #include "../samples/cost/recommendation.hpp"
 #include "../samples/cost/report_json.hpp"
 #include "../samples/cost/search.hpp"
+#include "../samples/cost/spending.hpp"
 
 namespace {
 
@@ -92,7 +95,7 @@ cost::Report sampleReport() {
     report.command = "minirt-cost \"a b.json\" -o a.html";
     report.date = "2026-01-01";
     report.width = 40, report.height = 30;
-    report.sceneSamples = 64;
+    report.sceneSamples = 4;
     report.levers = {fresnelLever(), idleLever(), samplesLever()};
     report.measurements = {measured({2, 1, 1}, 1, 0.01, 0.01),        measured({0, 1, 1}, 0.5, 0.03, 0.2),
                            measured({1, 1, 1}, 1 / 1.02, 0.05, 0.13), measured({2, 1, 0}, 0.5, 0.02, 0.01),
@@ -102,8 +105,28 @@ cost::Report sampleReport() {
     report.reference.configuration = {2, 1, 2};
     report.reference.mean = constantPicture(0.3f);
     report.reference.relMse = 1e-4;
-    report.front = {5, 1, 0, 4};
     report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    report.front = cost::surelyOnFront(report);
+    return report;
+}
+
+/// The same of a scene that takes 64 samples, of which 4 were measured.
+cost::Report manySamplesReport() {
+    cost::Report report = sampleReport();
+    report.sceneSamples = 64;
+    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 16);
+    report.front = cost::surelyOnFront(report);
+    return report;
+}
+
+/// A scene with these settings of Fresnel and four samples, and the same scene with another setting of Fresnel, which takes `slowdown` times as long.
+cost::Report twoSettings(size_t own, size_t other, double slowdown, double ownError, double otherError, double otherPixels = 0) {
+    cost::Report report = sampleReport();
+    report.levers[0].initial = own;
+    report.measurements = {measured({own, 1, 1}, 1, ownError, 0), measured({other, 1, 1}, slowdown, otherError, otherPixels)};
+    report.singles = 2;
+    report.comparisons = cost::compareLevers(report.levers, report.measurements, 1);
+    report.front = cost::surelyOnFront(report);
     return report;
 }
 
@@ -209,31 +232,69 @@ TEST_CASE("a device that slows down in some rounds changes no ratio") {
     CHECK(ratio.upper == doctest::Approx(3));
 }
 
-TEST_CASE("nothing beats a point of the front, and something beats each other point") {
-    CHECK(cost::paretoFront({}).empty());
-    CHECK(cost::paretoFront({{1, 1}, {1, 1}}) == std::vector<size_t>{0});
-    CHECK(cost::paretoFront({{3, 1}, {1, 3}, {2, 2}, {2, 3}, {3, 3}}) == std::vector<size_t>{1, 2, 0});
+TEST_CASE("nothing beats a point of the front, and something is as good as each other point") {
+    cost::Report report = sampleReport();
+    report.comparisons.clear();
+    report.measurements = {measured({2, 1, 1}, 1, 0.01, 0)};
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> unit;
-    std::vector<cost::Tradeoff> points(200);
-    for (cost::Tradeoff& p : points) p = {unit(random), unit(random)};
-    const std::vector<size_t> front = cost::paretoFront(points);
-    for (size_t i = 0; i < points.size(); ++i) {
-        const auto beats = [&](const cost::Tradeoff& p) { return p.time < points[i].time && p.error < points[i].error; };
-        const bool beaten = std::any_of(points.begin(), points.end(), beats);
-        CHECK(beaten == (std::find(front.begin(), front.end(), i) == front.end()));
+    std::uniform_real_distribution<double> logarithm(-1, 1);
+    for (int i = 0; i < 200; ++i) {
+        report.measurements.push_back(measured({1, 1, 1}, std::exp(logarithm(random)), 0.01 * std::exp(logarithm(random)), 0));
+        cost::Measurement& m = report.measurements.back();
+        m.bias.value = m.sameSamples.relMse = m.error.relMse;
+        m.slowdown.lower = m.slowdown.upper = m.slowdown.median;
+    }
+    report.measurements[0].bias.value = 0.01;
+    const std::vector<size_t> front = cost::surelyOnFront(report);
+    REQUIRE(front.size() > 3);
+    for (size_t i = 0; i < report.measurements.size(); ++i) {
+        const auto asGood = [&](size_t k, double share) {
+            return k != i && report.measurements[k].slowdown.median < report.measurements[i].slowdown.median * share &&
+                   report.errorOf(k) < report.errorOf(i) * share;
+        };
+        const bool onFront = std::find(front.begin(), front.end(), i) != front.end();
+        bool beaten = false;
+        bool equalled = false;
+        for (size_t k = 0; k < report.measurements.size(); ++k) {
+            beaten = beaten || asGood(k, 1 - 0.03);
+            equalled = equalled || asGood(k, 1 + 0.03);
+        }
+        CAPTURE(i);
+        if (onFront) CHECK_FALSE(beaten);
+        if (!onFront) CHECK(equalled);
     }
 }
 
 TEST_CASE("nothing is on the front of the measurements by chance") {
-    std::vector<cost::Measurement> all = {measured({2, 1, 1}, 1, 0.01, 0), measured({1, 1, 1}, 0.8, 0.02, 0),
-                                          measured({2, 1, 2}, 2, 0.005, 0), measured({0, 1, 1}, 0.99, 0.0101, 0)};
-    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{1, 0, 2});
+    cost::Report report = sampleReport();
+    report.comparisons.clear();
+    std::vector<cost::Measurement>& all = report.measurements;
+    all = {measured({2, 1, 1}, 1, 0.01, 0), measured({1, 1, 1}, 0.8, 0.02, 0), measured({2, 1, 2}, 2, 0.005, 0),
+           measured({0, 1, 1}, 0.99, 0.0101, 0)};
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{1, 0, 2});
     all[1].slowdown.upper = 1.1;  // as slow as the scene's own settings
-    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{0, 2});
-    all[1].error.relMse = 0.009;
-    all[1].relMse = {0.009, 0.009, 0.009};
-    CHECK(cost::surelyOnFront(all) == std::vector<size_t>{1, 2});
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{0, 2});
+    all[1] = measured({1, 1, 1}, 0.8, 0.009, 0);
+    all[1].sameSamples.relMse = all[1].bias.value = 0;
+    all[0] = measured({2, 1, 1}, 1, 0.01, 0);
+    all[0].sameSamples.relMse = all[0].bias.value = 0.002;  // more wrong, and slower
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{1, 2});
+}
+
+TEST_CASE("a tie with the scene's own settings is not on the front, nor is a time that many comparisons make by chance") {
+    cost::Report report = sampleReport();
+    report.comparisons.clear();
+    std::vector<cost::Measurement>& all = report.measurements;
+    all = {measured({2, 1, 1}, 1, 0.01, 0), measured({1, 1, 1}, 1.6, 0.00999, 0), measured({2, 1, 2}, 2, 0.005, 0)};
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{0, 2});  // a tenth of a percent less error is none
+    all[1] = measured({0, 1, 1}, 0.8, 0.03, 0);
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{1, 0, 2});
+    all[1].slowdown = {0.8, 0.7, 0.95};  // faster than the scene's own settings by its quartiles, but twice as wide not
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{0, 2});
+    all[1] = measured({0, 1, 1}, 0.8, 0.01, 0.02);  // as little error, but pixels that look wrong
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{1, 0, 2});
+    all[1] = measured({0, 1, 1}, 0.8, 0.01, 0);
+    CHECK(cost::surelyOnFront(report) == std::vector<size_t>{1, 2});
 }
 
 TEST_CASE("sentences give the cost of the accurate setting and what the cheap one does") {
@@ -241,9 +302,9 @@ TEST_CASE("sentences give the cost of the accurate setting and what the cheap on
     REQUIRE(report.comparisons.size() == 4);
     const cost::Comparison& fresnel = report.comparisons[0];
     CHECK(report.levers[fresnel.lever].name == "fresnel");
-    CHECK(cost::sentence(report.levers[0], fresnel) ==
-          "Exact Fresnel instead of Schlick's Fresnel costs 2 % more time and removes 80 % of the error; without it 12 % of the "
-          "pixels visibly change.");
+    CHECK(cost::sentence(report.levers[0], fresnel, 0) ==
+          "Exact Fresnel instead of Schlick's Fresnel costs 2 % of the time and removes 80 % of the error (0.0100 instead of "
+          "0.0500); without it 12 % of the pixels visibly change.");
     CHECK(cost::verdict(fresnel) == "keep");
     CHECK(cost::idleSentence(idleLever()) == "Dispersion: left alone, since no medium disperses light.");
 }
@@ -253,23 +314,110 @@ TEST_CASE("sentences say where nothing changes, and where nothing can be told") 
     const auto compared = [&](double slowdown, double error) {
         return cost::compareLevers(levers, {measured({1}, 1, 0.01, 0), measured({2}, slowdown, error, 0)}, 1).front();
     };
-    const auto said = [&](double slowdown, double error) { return cost::sentence(levers[0], compared(slowdown, error)); };
+    const auto said = [&](double slowdown, double error) { return cost::sentence(levers[0], compared(slowdown, error), 0); };
     CHECK(said(1.21, 0.01) ==
-          "8 samples instead of 4 cost 21 % more time and change nothing that could be measured in the picture.");
+          "8 samples instead of 4 would cost 21 % more time and change nothing that could be measured in the picture.");
     CHECK(cost::verdict(compared(1.21, 0.01)) == "spare");
     CHECK(said(1.004, 0.01) ==
-          "8 samples instead of 4 make no difference that could be measured, neither in time nor in the picture.");
+          "8 samples instead of 4 would make no difference that could be measured, neither in time nor in the picture.");
     CHECK(cost::verdict(compared(1.004, 0.01)) == "either");
-    CHECK(said(1.004, 0.005) == "8 samples instead of 4 have no measurable cost and remove 50 % of the error.");
-    CHECK(said(3, 0.005) == "8 samples instead of 4 take 3.00 times as long and remove 50 % of the error.");
+    CHECK(said(1.004, 0.005) ==
+          "8 samples instead of 4 would have no measurable cost and remove 50 % of the error (0.00500 instead of 0.0100).");
+    CHECK(said(3, 0.005) ==
+          "8 samples instead of 4 would take 3.00 times as long and remove 50 % of the error (0.00500 instead of 0.0100).");
     CHECK(cost::verdict(compared(3, 0.005)) == "trade");
-    CHECK(said(0.8, 0.012) == "8 samples instead of 4 save 20 % of the time and add 20 % to the error.");
+    CHECK(said(0.8, 0.012) ==
+          "8 samples instead of 4 would save 20 % of the time and add 20 % to the error (0.0120 instead of 0.0100).");
+}
+
+TEST_CASE("what to do is said of the setting that the scene has") {
+    constexpr size_t kNone = 0, kSchlick = 1, kExact = 2;
+    const auto advice = [](const cost::Report& report) { return cost::adviceOn(report, report.comparisons.front()); };
+    CHECK(advice(twoSettings(kExact, kSchlick, 0.98, 0.01, 0.05, 0.12)).action == cost::Action::keep);
+    CHECK(advice(twoSettings(kSchlick, kExact, 1.02, 0.05, 0.01)).action == cost::Action::upgrade);
+    CHECK(advice(twoSettings(kExact, kSchlick, 0.8, 0.01, 0.01)).action == cost::Action::switchTo);
+    const cost::Advice needless = advice(twoSettings(kSchlick, kExact, 1.3, 0.01, 0.01));
+    CHECK(needless.action == cost::Action::notNeeded);
+    CHECK(needless.reason == "slower for nothing");
+    CHECK(advice(twoSettings(kExact, kNone, 0.5, 0.01, 0.015)).action == cost::Action::choose);
+    CHECK(advice(twoSettings(kNone, kExact, 2, 0.015, 0.01)).action == cost::Action::choose);
+    CHECK(advice(twoSettings(kExact, kNone, 0.96, 0.01, 0.0101)).action == cost::Action::keep);  // too little time to choose
+    CHECK(advice(twoSettings(kExact, kSchlick, 1.002, 0.01, 0.01)).reason == "no difference");
+    CHECK(advice(twoSettings(kSchlick, kExact, 1, 0.0103, 0.01)).reason == "only a little better");
+    CHECK(advice(twoSettings(kSchlick, kExact, 1, 0.013, 0.01)).reason == "better for no time");
+    cost::Report mixed = twoSettings(kSchlick, kExact, 1.5, 0.01, 0.012, 0);
+    mixed.measurements[0].sameSamples.wrongPixels = 0.05;
+    mixed.comparisons = cost::compareLevers(mixed.levers, mixed.measurements, 1);
+    CHECK(advice(mixed).action == cost::Action::choose);
+    CHECK(advice(mixed).reason == "fewer wrong pixels, but more error");
+    CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).action == cost::Action::hardlyMatters);
+    CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).reason == "not surely 5 % faster");
+}
+
+TEST_CASE("an instruction names the setting to take") {
+    const auto said = [](const cost::Report& report) { return cost::instruction(report, report.comparisons.front()); };
+    CHECK(said(twoSettings(2, 1, 0.98, 0.01, 0.05, 0.12)) == "Keep exact Fresnel");
+    CHECK(said(twoSettings(1, 2, 1.02, 0.05, 0.01)) == "Upgrade to exact Fresnel");
+    CHECK(said(twoSettings(2, 1, 0.8, 0.01, 0.01)) == "Switch to Schlick's Fresnel");
+    CHECK(said(twoSettings(1, 2, 1.3, 0.01, 0.01)) == "No need for exact Fresnel");
+    CHECK(said(twoSettings(2, 0, 0.5, 0.01, 0.015)) == "Your choice");
+}
+
+TEST_CASE("a sentence says costs of what the scene has, and would cost of what it does not") {
+    const auto said = [](const cost::Report& report) {
+        return cost::sentence(report.levers[0], report.comparisons.front(), report.floor());
+    };
+    CHECK(said(twoSettings(2, 1, 0.7, 0.01, 0.05)) ==
+          "Exact Fresnel instead of Schlick's Fresnel costs 30 % of the time and removes 80 % of the error (0.0100 instead of "
+          "0.0500).");
+    CHECK(said(twoSettings(1, 2, 1.3, 0.05, 0.01)) ==
+          "Exact Fresnel instead of Schlick's Fresnel would cost 30 % more time and remove 80 % of the error (0.0100 instead of "
+          "0.0500).");
+    CHECK(said(twoSettings(2, 1, 1.3, 0.01, 0.05)) ==
+          "Exact Fresnel instead of Schlick's Fresnel costs no time (a picture takes 30 % longer without it) and removes 80 % of "
+          "the error (0.0100 instead of 0.0500).");
+}
+
+TEST_CASE("errors that the reference cannot tell apart are not compared") {
+    const cost::Report report = twoSettings(2, 1, 0.7, 0.01, 0.05);
+    CHECK(cost::sentence(report.levers[0], report.comparisons.front(), 0.06) ==
+          "Exact Fresnel instead of Schlick's Fresnel costs 30 % of the time and changes less of the error than can be told "
+          "(≤ 0.0600).");
+    cost::Report many = manySamplesReport();
+    CHECK(many.floor() == doctest::Approx(many.reference.relMse / 16));
+}
+
+TEST_CASE("settings that save as much are switched to only where they are what is recommended") {
+    cost::Report report = sampleReport();
+    report.measurements[1] = measured({0, 1, 1}, 0.6, 0.01, 0.01);
+    report.measurements[2] = measured({1, 1, 1}, 0.8, 0.01, 0.01);
+    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    REQUIRE(cost::recommended(report) == 1);
+    CHECK(cost::adviceOn(report, *report.comparisonOf(1)).action == cost::Action::switchTo);
+    CHECK(cost::adviceOn(report, *report.comparisonOf(2)).action == cost::Action::couldSwitch);
+    const std::vector<size_t> found = cost::findings(report);
+    REQUIRE(found.size() == 2);
+    CHECK(report.comparisons[found[0]].measurement == 1);
+}
+
+TEST_CASE("how much of the error only more samples reduce") {
+    cost::Report report = twoSettings(1, 2, 1.02, 0.05, 0.01);
+    report.measurements.front().bias.value = 0.04;
+    CHECK(cost::samplingShare(report) == doctest::Approx(0.2));
+    CHECK(cost::betterPictureSentence(report) ==
+          "Take exact Fresnel: 2 % more time, and the error falls from 0.0500 to 0.0100. 20 % of the error (0.0500) is jagged "
+          "edges and missed detail of 4 samples a pixel: more samples reduce no more than that.");
+    report = sampleReport();
+    report.reference.random = true;
+    CHECK(cost::betterPictureSentence(report) ==
+          "Nearly all of the error (0.0100) is the noise of 4 samples a pixel, which only more samples reduce. Take 8 samples: "
+          "2.00 times the time, and the error falls from 0.0100 to 0.00500.");
 }
 
 TEST_CASE("a cheap setting that misses bright sparks has less noise, and is wrong all the same") {
     cost::Measurement accurate = measured({2, 1, 1}, 1, 0.01, 0);
     cost::Measurement cheap = measured({0, 1, 1}, 0.5, 0.004, 0.01);
-    cheap.sameSamples.relMse = 0.01 / 9;
+    cheap.bias.value = cheap.sameSamples.relMse = 0.01 / 9;
     const cost::Comparison compared =
         cost::compareLevers({fresnelLever(), idleLever(), samplesLever()}, {accurate, cheap}, 1).front();
     CHECK(compared.change == cost::ErrorChange::less);
@@ -290,12 +438,13 @@ TEST_CASE("differences that chance could make are none") {
 TEST_CASE("a bias counts as it will at the scene's own samples, where noise has gone") {
     cost::Lever depth = samplesLever();
     depth.kind = cost::LeverKind::depth;
-    cost::Measurement own = measured({1}, 1, 0.012, 0);
-    cost::Measurement other = measured({0}, 1, 0.010, 0);
+    const std::vector<cost::Lever> levers = {depth, samplesLever()};
+    cost::Measurement own = measured({1, 1}, 1, 0.012, 0);
+    cost::Measurement other = measured({0, 1}, 1, 0.010, 0);
     own.bias = other.bias = {0, 0.001};
     other.shift = {0.004, 0.001};
-    CHECK(cost::compareLevers({depth}, {own, other}, 1).front().change == cost::ErrorChange::more);
-    const cost::Comparison many = cost::compareLevers({depth}, {own, other}, 100).front();
+    CHECK(cost::compareLevers(levers, {own, other}, 1).front().change == cost::ErrorChange::more);
+    const cost::Comparison many = cost::compareLevers(levers, {own, other}, 100).front();
     CHECK(many.change == cost::ErrorChange::less);
     CHECK(many.removed == doctest::Approx(1 - 0.00012 / 0.00406));
 }
@@ -324,6 +473,17 @@ TEST_CASE("numbers have three significant digits") {
     CHECK(cost::number(1234) == "1234");
     CHECK(cost::number(0) == "0");
     CHECK(cost::number(2.5e-7) == "2.5e-07");
+    CHECK(cost::number(6.9e-5) == "0.0000690");
+}
+
+TEST_CASE("letters are counted, not their bytes, and times are written against those of the scene") {
+    CHECK(cost::letterCount("2 × Möller–Trumbore") == 19);
+    CHECK(cost::relativeTime(0.7) == "−30 %");
+    CHECK(cost::relativeTime(1.041) == "+4.1 %");
+    CHECK(cost::relativeTime(2.06) == "2.06 ×");
+    CHECK(cost::errorChange(0.01, 0.02, 0) == "the error rises from 0.0100 to 0.0200");
+    CHECK(cost::errorChange(0.01, 0.001, 0.002) == "the error falls from 0.0100 to ≤ 0.00200");
+    CHECK(cost::errorChange(0.01, 0.010001, 0) == "the error stays at 0.0100");
 }
 
 TEST_CASE("each lever moves alone, and idle ones not at all") {
@@ -386,24 +546,32 @@ TEST_CASE("a setting that misses bright sparks is not expected to have less nois
     CHECK(error() == doctest::Approx(0.0042));
 }
 
-TEST_CASE("half the time is bought with the least error, or it is said that nothing measured halves it") {
+TEST_CASE("random noise is expected to fall as the number of samples, whatever a few of them showed") {
     cost::Report report = sampleReport();
+    report.measurements[3].error.relMse = 0.04;  // 2 samples: a power of 2
+    report.measurements[4].error.relMse = 0.0025;
+    const auto error = [&] { return cost::expected(report.levers, report.measurements, report.measurements[0], 64).relMse; };
+    CHECK(error() == doctest::Approx(0.01 / 256));
+    report.measurements[0].bias.standardError = 1e-5;
+    CHECK(error() == doctest::Approx(0.01 / 16));
+}
+
+TEST_CASE("half the time is bought with the least error, or it is said that nothing measured halves it") {
+    cost::Report report = manySamplesReport();
     CHECK(cost::halfTimeSentence(report) ==
-          "To halve the time, take 32 samples a pixel: about 50 % less time, and the error rises from 0.000625 to 0.00125, as "
-          "expected "
-          "at the scene's own samples.");
+          "Take 32 samples a pixel: 50 % less time, and the error rises from 0.000625 to 0.00125.");
     CHECK(cost::commandsFor(report, *cost::halfTime(report).choice).back() ==
           "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 32");
-    report.sceneSamples = 4;
+    report = sampleReport();
     report.measurements[3].sameSamples.wrongPixels = 0.05;  // at 2 samples, which are no lever's doing
     CHECK(contains(cost::halfTimeSentence(report),
-                   "take 2 samples a pixel: about 50 % less time, and the error rises from 0.0100 to 0.0200."));
+                   "Take 2 samples a pixel: 50 % less time, and the error rises from 0.0100 to 0.0200."));
     CHECK(cost::halfTime(report).wrongPixels == 0);
     report.measurements.front().bias.standardError = 1e-5;
     report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
     CHECK(cost::recommended(report) == 6);
     CHECK(cost::halfTime(report).advised);
-    CHECK(cost::halfTimeSentence(report) == "This halves the time already.");
+    CHECK(cost::halfTimeSentence(report) == "The same: it halves the time already.");
 }
 
 TEST_CASE("where not even one sample fits half the time, the fastest that surely saves some is named") {
@@ -413,7 +581,7 @@ TEST_CASE("where not even one sample fits half the time, the fastest that surely
     report.sceneSamples = 1;
     report.measurements = {measured({2, 1, 0}, 1, 0.01, 0.01), measured({0, 1, 0}, 0.8, 0.03, 0.2),
                            measured({1, 1, 0}, 0.81, 0.02, 0.13), measured({2, 1, 1}, 2, 0.005, 0.01)};
-    report.measurements[2].sameSamples.relMse = 0;
+    report.comparisons = cost::compareLevers(report.levers, report.measurements, 1);
     CHECK(cost::halfTimeSentence(report) ==
           "Nothing that was measured halves the time. What surely saves the most is Schlick's Fresnel: 19 % less time, and the "
           "error "
@@ -432,7 +600,7 @@ TEST_CASE("what is recommended is the fastest that keeps the quality, with the f
     report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.0104, 0.011));
     CHECK(cost::recommended(report) == 6);
     CHECK(cost::recommendationSentence(report) ==
-          "Take Schlick's Fresnel: 20 % less time (8.00 instead of 10.0 ms a picture) and 4 % more error.");
+          "Take Schlick's Fresnel: 20 % less time, and the error rises from 0.0100 to 0.0104.");
     report.measurements.push_back(measured({0, 1, 2}, 0.79, 0.0104, 0.011));  // as fast, but changes more
     CHECK(cost::recommended(report) == 6);
     report.measurements.back().slowdown = {0.7, 0.69, 0.71};
@@ -508,6 +676,7 @@ TEST_CASE("what is recommended in the end has been timed again, also where it wa
 
 TEST_CASE("no recommendation is timed again beyond the time") {
     cost::Report report = sampleReport();
+    report.measurements.front().bias.standardError = 1e-5;  // random
     for (size_t samples : {0, 1, 2}) report.measurements.push_back(measured({1, 1, samples}, 0.5, 0.01, 0.01));
     double clock = 0;
     size_t calls = 0;
@@ -534,17 +703,19 @@ TEST_CASE("no recommendation is timed again beyond the time") {
 }
 
 TEST_CASE("of noisy pictures the error counts that the scene's own samples leave") {
-    cost::Report report = sampleReport();
+    cost::Report report = manySamplesReport();
     report.reference.random = true;
     report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.0102, 0));
     report.measurements.back().bias = {0.0004, 0.0001};
     CHECK(cost::recommended(report) == 0);  // at 64 samples instead of 4 the bias is more than the noise
     report.sceneSamples = 4;
+    report.comparisons = sampleReport().comparisons;
     CHECK(cost::recommended(report) == 6);
 }
 
 TEST_CASE("what is recommended can be typed, or written into the scene file") {
-    cost::Report report = sampleReport();
+    cost::Report report = manySamplesReport();
+    report.measurements.front().bias.standardError = 1e-5;  // random
     report.measurements.push_back(measured({1, 1, 0}, 0.5, 0.01, 0.01));
     CHECK(cost::commandsFor(report, cost::recommendedChoice(report)) ==
           std::vector<std::string>{"minirtc bake 'glass & <ice>.json' -o 'glass & <ice>.mrt' --set fresnel=schlick",
@@ -632,6 +803,131 @@ TEST_CASE("base64 is that of RFC 4648") {
     CHECK(encoded("foobar") == "Zm9vYmFy");
 }
 
+TEST_CASE("figures in a sentence are those of its row in the table, of the plot and of the JSON") {
+    cost::Report report = sampleReport();
+    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    const std::string html = cost::page(report);
+    const auto json = nlohmann::json::parse(cost::reportJson(report));
+    const auto rowOf = [&](const std::string& from) {
+        const size_t at = html.find(from, html.find("class=\"settings\""));
+        REQUIRE(at != std::string::npos);
+        return html.substr(at, html.find("</tr>", at) - at);
+    };
+    for (const cost::Comparison& c : report.comparisons) {
+        const std::string row = rowOf("<b class=\"lever\">" + std::to_string(c.measurement) + "</b>");
+        const std::string then = cost::number(c.errorThen());
+        const std::string now = cost::number(report.errorOf(0));
+        const std::string sentence = cost::sentence(report.levers[c.lever], c, report.floor());
+        CAPTURE(sentence);
+        CHECK(contains(row, "data-label=\"Error\">" + then + "<"));
+        CHECK(contains(rowOf("<b class=\"own\">0</b>"), ">" + now + "<"));
+        CHECK(contains(sentence,
+                       c.sceneHasAccurate ? "(" + now + " instead of " + then + ")" : "(" + then + " instead of " + now + ")"));
+        const std::string time = cost::relativeTime(c.relativeTime.median);
+        CHECK(contains(row, time.substr(0, time.find(' '))));
+        const std::string size = time.substr(0, 1) < "0" ? time.substr(1) : time.find("−") == 0 ? time.substr(3) : time;
+        CHECK(contains(sentence, size.substr(0, size.find(' '))));
+        CHECK(json["measurements"][c.measurement]["expected_relmse"] == c.errorThen());
+    }
+    CHECK(cost::number(report.errorOf(2)) == "0.0500");
+}
+
+TEST_CASE("a row says what the scene has, how far its time is known, and what to do") {
+    const std::string html = cost::page(twoSettings(1, 2, 1.3, 0.01, 0.01));
+    CHECK(contains(html, "Fresnel<small>now: Schlick's Fresnel</small>"));
+    CHECK(contains(html, "+30\u00a0%<small>+29\u00a0% to +31\u00a0%</small>"));
+    CHECK(contains(html, "<span class=\"chip not-needed\">not needed</span><small>slower for nothing</small>"));
+    CHECK_FALSE(contains(html, "spare"));
+}
+
+TEST_CASE("an error below that of the reference is marked as not to be believed") {
+    cost::Report report = twoSettings(2, 1, 0.9, 0.001, 0.05);
+    report.reference.relMse = 0.002;
+    CHECK(cost::errorFigure(0.001, 0.002) == "≤ 0.00200");
+    CHECK(cost::errorFigure(0.0021, 0.002) == "0.00210");
+    const std::string html = cost::page(report);
+    CHECK(contains(html, "data-label=\"Error\">≤\u00a00.00200<"));
+    CHECK(contains(html, "(≤\u00a00.00200 instead of 0.0500)"));
+    CHECK_FALSE(contains(html, "data-label=\"Error\">0.00100<"));
+}
+
+TEST_CASE("what halves the time is marked in the plot and in the table, hollow where it is only expected") {
+    cost::Report report = manySamplesReport();
+    REQUIRE(cost::halfTime(report).measurement == 3);  // 2 samples of 4, for 32 of 64
+    std::string html = cost::page(report);
+    CHECK(contains(html, "<g class=\"half\"><title>3: 2 samples"));
+    const auto inSettings = [&](const std::string& part) {
+        const size_t from = html.find("class=\"choices\"");
+        return contains(html.substr(from, html.find("</tbody>", from) - from), part);
+    };
+    CHECK(inSettings("<b class=\"half\">3</b> 32 samples a pixel <span class=\"badge\">■ half the time"));
+    CHECK(inSettings("−50\u00a0%"));
+    CHECK(inSettings(">" + cost::number(report.errorOf(3)) + "<"));
+    CHECK_FALSE(contains(html, "□"));
+    cost::Report unsteady = report;
+    unsteady.measurements[3].slowdown = {0.5, 0.4, 1.4};  // which the table calls the same time
+    CHECK_FALSE(cost::halfTime(unsteady).measurement);
+    CHECK(contains(cost::halfTimeSentence(unsteady), "about 50 % less time"));
+    report.measurements.erase(report.measurements.begin() + 5);
+    report.measurements.erase(report.measurements.begin() + 3);
+    report.singles = 4;
+    report.comparisons = cost::compareLevers(report.levers, report.measurements, 16);
+    report.front = cost::surelyOnFront(report);
+    const cost::HalfTime half = cost::halfTime(report);
+    REQUIRE_FALSE(half.measurement);
+    html = cost::page(report);
+    CHECK(contains(html, "<g class=\"half\"><title>½: 32 samples a pixel"));
+    CHECK(inSettings("<b class=\"half\">½</b> 32 samples a pixel <span class=\"badge\">□ half the time, expected"));
+    CHECK(inSettings(">" + cost::number(half.choice->relMse) + "<"));
+    CHECK(contains(html, "expected, not measured"));
+    CHECK_FALSE(contains(html, "<li><b class=\"half\">½"));  // once is enough
+    CHECK_FALSE(contains(html, "■"));
+    CHECK(contains(html, "<td>" + cost::number(half.choice->relMse) + "</td>"));
+    CHECK(contains(cost::halfTimeSentence(report), "Take 32 samples a pixel: about 50 % less time"));
+}
+
+TEST_CASE("the parts of the page come in the order in which they are needed") {
+    const std::string html = cost::page(sampleReport());
+    size_t before = 0;
+    for (const char* part : {"The same picture in less time", "What to type", "Each setting", "Error against time",
+                             "Pictures, and", "All figures", "How this was measured", ">Words<"}) {
+        CAPTURE(part);
+        const size_t at = html.find(part, before);
+        REQUIRE(at != std::string::npos);
+        before = at;
+    }
+}
+
+TEST_CASE("what a budget buys is measured within the time that is left") {
+    for (const double seconds : {0.0, 0.02, 0.1, 1.0, 100.0})
+        for (const double budget : {1.3, 40.0, 5000.0, 1e6}) {
+            CAPTURE(seconds);
+            CAPTURE(budget);
+            cost::Report report = sampleReport();
+            report.budgetMs = budget;
+            double clock = 0;
+            double oneSample = 0;
+            const auto render = [&](const cost::Configuration& configuration, uint32_t samples) -> cost::TimedPicture {
+                const double ms = samples * (configuration[0] == 0 ? 1.25 : 2.5) * 1.1;  // slower than it was
+                oneSample = ms / samples * 1.5e-3;
+                clock += ms * 1.5e-3;
+                return {ms, 0.25};
+            };
+            cost::spendBudget(
+                render, [&] { return seconds - clock; }, report);
+            REQUIRE(report.choice);
+            CHECK(clock <= seconds * 1.1 + 4 * oneSample);
+            CHECK((report.choiceMs <= budget || report.choice->samples == 1));
+            CHECK(report.choiceSamples >= 1);
+            CHECK((report.choiceRelMse == 0.25) == (report.choiceSamples == report.choice->samples));
+            CHECK(contains(cost::budgetSentence(report),
+                           report.choiceSamples < report.choice->samples ? ": about " : ": measured "));
+        }
+    CHECK(cost::secondsToSpend(1e6, 100) == doctest::Approx(20));
+    CHECK(cost::secondsToSpend(100, 100) == doctest::Approx(0.3));
+    CHECK(cost::secondsToSpend(0, 100) == 0);
+}
+
 TEST_CASE("the page is balanced, loads nothing, and escapes what it is told") {
     cost::Report report = sampleReport();
     report.budgetMs = 1;
@@ -644,7 +940,7 @@ TEST_CASE("the page is balanced, loads nothing, and escapes what it is told") {
     CHECK(contains(html, "glass &amp; &lt;ice&gt;"));
     CHECK_FALSE(contains(html, "<ice>"));
     CHECK(contains(html, "&quot;a b.json&quot;"));
-    CHECK(contains(html, "Exact Fresnel instead of Schlick's Fresnel costs 2\u00a0% more time"));
+    CHECK(contains(html, " instead of Schlick's Fresnel costs 2\u00a0% of the time"));
     CHECK(contains(html, "no medium disperses light"));
     CHECK(contains(html, "Nothing fits 1.00\u00a0ms"));
     CHECK(contains(html, "width=device-width"));
@@ -657,7 +953,7 @@ TEST_CASE("the page warns of times that were unsteady") {
     cost::Report report = sampleReport();
     CHECK_FALSE(contains(cost::page(report), "unsteady"));
     report.measurements[0].ms = {10, 9, 11};
-    CHECK(contains(cost::page(report), "differs by 20\u00a0%"));
+    CHECK(contains(cost::page(report), "scatter by 20\u00a0%"));
 }
 
 TEST_CASE("every point is in both plots, inside of their boxes") {
@@ -681,30 +977,32 @@ TEST_CASE("what is recommended has a star, and what is like the scene's own sett
         return found;
     };
     std::string html = cost::page(report);
-    CHECK(count(html, "class=\"star\"") == 2);  // in either plot
+    CHECK(count(html, "class=\"solid star\"") == 3);  // in either plot
     CHECK(contains(html, "recommended: the scene's own settings"));
     CHECK_FALSE(contains(html, "class=\"lever pale\""));
     report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
     html = cost::page(report);
-    CHECK(count(html, "class=\"star\"") == 2);
+    CHECK(count(html, "class=\"solid star\"") == 3);
     CHECK(contains(html, "recommended: Schlick's Fresnel"));
     CHECK(contains(html, "</svg>the scene's own settings"));
     CHECK(contains(html, ">6: Schlick's Fresnel</text>"));
-    report.measurements[2] = measured({1, 1, 1}, 1.01, 0.0101, 0.01);
+    report.measurements[2] = measured({1, 1, 1}, 1.01, 0.01, 0.01);
+    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
     html = cost::page(report);
     CHECK(count(html, "<g class=\"lever pale\">") == 2);
     CHECK_FALSE(contains(html, ">2: Schlick's Fresnel</text>"));
-    CHECK(contains(html, "They are Schlick's Fresnel (2)."));
+    CHECK(contains(html, "hardly matters"));
 }
 
 TEST_CASE("the glossary explains the words that occur, once each, and the first of them leads there") {
     cost::Glossary glossary;
     CHECK(glossary.list().empty());
     const std::string html = glossary.linked(
-        "<h2>Bias</h2><pre>bias --spp</pre><p title=\"bias\">Bias and bias; Pareto front<a href=\"#x\">noise</a>, unbiased</p>");
+        "<h2>Bias</h2><pre>bias --spp</pre><p title=\"bias\">Bias and bias; Russian roulette<a href=\"#x\">noise</a>, "
+        "unbiased</p>");
     CHECK(html ==
           "<h2>Bias</h2><pre>bias --spp</pre><p title=\"bias\"><a class=\"term\" href=\"#word-bias\">Bias</a> and bias; "
-          "<a class=\"term\" href=\"#word-pareto\">Pareto front</a><a href=\"#x\">noise</a>, unbiased</p>");
+          "<a class=\"term\" href=\"#word-weak\">Russian roulette</a><a href=\"#x\">noise</a>, unbiased</p>");
     CHECK(glossary.linked("bias, more samples") == "bias, more <a class=\"term\" href=\"#word-sample\">samples</a>");
     CHECK(contains(glossary.list(), "id=\"word-bias\""));
     CHECK(contains(glossary.list(), "id=\"word-sample\""));
@@ -727,7 +1025,7 @@ TEST_CASE("each word that the page links is explained on it") {
 }
 
 TEST_CASE("the JSON holds every measurement with its settings by name") {
-    const auto json = nlohmann::json::parse(cost::reportJson(sampleReport()));
+    const auto json = nlohmann::json::parse(cost::reportJson(manySamplesReport()));
     CHECK(json["measurements"].size() == 6);
     CHECK(json["measurements"][2]["settings"]["fresnel"] == "schlick");
     CHECK(json["measurements"][5]["kind"] == "combination");

@@ -12,8 +12,14 @@ double noiseOf(const Measurement& m, const Configuration& own) {
     return std::max(m.error.relMse - systematicError(m, own), 1e-12);
 }
 
-/// How fast noise falls with the samples: the slope of a line through what the lever of the samples did, in logarithms. 1: as their number.
+/// Pictures of path tracers, whose noise is random.
+bool areRandom(const std::vector<Measurement>& measurements) {
+    return measurements.front().bias.standardError > 0;
+}
+
+/// How fast noise falls with the samples: random noise as their number, 1; else the slope of a line through what the lever of the samples did, in logarithms.
 double falloff(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements) {
+    if (areRandom(measurements)) return 1;
     const size_t samples = findLever(levers, LeverKind::samples);
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const Measurement& m : measurements) {
@@ -55,10 +61,18 @@ BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measur
         return noiseOf(of, own) * std::pow(static_cast<double>(samplesOf(levers, of.configuration)) / samples, slope);
     };
     // Where pictures are not random, all have the same noise, and what shows less of it misses bright sparks.
-    const bool random = measurements.front().bias.standardError > 0;
-    const double noise = random ? noiseAt(m) : std::max(noiseAt(m), noiseAt(measurements.front()));
+    const size_t lever = findLever(levers, LeverKind::samples);
+    const bool ownButSamples = with(m.configuration, lever, own[lever]) == own;
+    const double noise =
+        areRandom(measurements) || ownButSamples ? noiseAt(m) : std::max(noiseAt(m), noiseAt(measurements.front()));
     const double ms = msPerSample(levers, m, measurements.front()) * samples;
     return {m.configuration, samples, ms, systematicError(m, own) + noise};
+}
+
+double expectedError(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
+                     double moreSamples) {
+    const long samples = std::lround(samplesOf(levers, m.configuration) * moreSamples);
+    return expected(levers, measurements, m, static_cast<uint32_t>(std::max(samples, 1L))).relMse;
 }
 
 std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,

@@ -13,10 +13,14 @@ struct BudgetChoice {
     double relMse = 0;  // expected
 };
 
-/// What is expected of a measured configuration with so many samples a pixel: time grows with them, the bias stays, the rest of the error falls with a power
-/// of them that the lever of the samples shows.
+/// What is expected of a measured configuration with so many samples a pixel: time grows with them, the bias stays, the rest of the error falls as
+/// their number where it is random, else with a power of them that the lever of the samples shows.
 BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
                       uint32_t samples);
+
+/// The error expected of a measured configuration with `moreSamples` times as many samples as measured.
+double expectedError(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
+                     double moreSamples);
 
 /// Of all measured configurations, each with as many samples as fit `ms`, the one with the least error expected; of those with about as little, the one
 /// that changes the fewest settings. `pixelRatio`: pixels of the picture that is wanted over those of the measured ones. Nothing where not even one sample

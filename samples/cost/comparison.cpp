@@ -16,12 +16,6 @@ bool isChance(const Estimate& difference, double noticeable) {
     return std::abs(difference.value) <= std::max(3 * difference.standardError, noticeable);
 }
 
-/// Errors of a cheap and an accurate setting.
-struct ErrorPair {
-    double cheap = 0, accurate = 0;
-    bool differ = false;
-};
-
 /// Whether a lever changes how many samples there are or which, not what one of them shows.
 bool changesSamples(LeverKind kind) {
     return kind == LeverKind::samples || kind == LeverKind::integrator;
@@ -31,43 +25,62 @@ bool morePixelsAreWrong(const Measurement& cheap, const Measurement& accurate) {
     return std::abs(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels) > kNoticeablePixels;
 }
 
-/// Pictures that repeat bit for bit share the noise of their few samples: on top of it comes what the cheap one gets wrong at these very samples. That it
-/// may get a bright spark wrong and so have less noise is no merit.
-ErrorPair deterministicErrors(const Measurement& cheap, const Measurement& accurate) {
-    ErrorPair pair;
-    pair.accurate = accurate.error.relMse;
-    pair.cheap = pair.accurate + std::max(cheap.sameSamples.relMse - accurate.sameSamples.relMse, 0.0);
-    pair.differ = pair.cheap - pair.accurate > kNoticeable * pair.cheap || morePixelsAreWrong(cheap, accurate);
-    return pair;
+/// Whether a setting differs from the scene's own in the picture, and its error at the scene's own samples.
+struct Outcome {
+    bool differs = false;
+    double error = 0;
+};
+
+/// Pictures that repeat bit for bit share the error of their few samples: on top of it comes what a setting gets wrong at these very samples. That a cheap
+/// one may get a bright spark wrong and so have less noise is no merit, and that an accurate one shows it no fault.
+Outcome deterministicOutcome(const Measurement& m, const Measurement& own, double ownError, double expectedError) {
+    const double more = m.sameSamples.relMse - own.sameSamples.relMse;
+    const double error = more < 0 ? std::max(ownError + more, 0.0) : expectedError;
+    return {std::abs(more) > kNoticeable * std::max(error, ownError) || morePixelsAreWrong(m, own), error};
 }
 
 /// The mean difference of the pixels is worth a word and beyond three standard errors, or more pixels look wrong.
-ErrorPair sampledErrors(const Measurement& cheap, const Measurement& accurate) {
-    ErrorPair pair = {cheap.error.relMse, accurate.error.relMse, false};
-    const double noticeable = kNoticeable * std::max(pair.cheap, pair.accurate);
-    pair.differ = !isChance(pairedDifference(cheap.error, accurate.error), noticeable) || morePixelsAreWrong(cheap, accurate);
-    return pair;
+Outcome sampledOutcome(const Measurement& m, const Measurement& own, double expectedError) {
+    const double noticeable = kNoticeable * std::max(m.error.relMse, own.error.relMse);
+    return {!isChance(pairedDifference(m.error, own.error), noticeable) || morePixelsAreWrong(m, own), expectedError};
 }
 
 /// What more samples leave, the shift between the two, is the cheap one's error; the rest falls as their number.
-ErrorPair noisyErrors(const Measurement& cheap, const Measurement& accurate, const Estimate& shift, double moreSamples) {
-    const double systematic = shift.isSignificant() ? shift.value : 0;
-    ErrorPair pair;
-    pair.cheap = systematic + std::max(cheap.error.relMse - systematic, 0.0) / moreSamples;
-    pair.accurate = accurate.error.relMse / moreSamples;
-    const double noticeable = kNoticeable * std::max(cheap.error.relMse, accurate.error.relMse);
-    const bool noise = !isChance(pairedDifference(cheap.error, accurate.error), noticeable);
-    pair.differ = noise || systematic > kNoticeable * pair.accurate;
-    if (!noise) pair.cheap = systematic + pair.accurate;
-    return pair;
+Outcome noisyOutcome(const Measurement& m, const Measurement& own, bool isCheap, double ownError, double expectedError) {
+    const double shift = m.shift.isSignificant() ? m.shift.value : 0;
+    const double noticeable = kNoticeable * std::max(m.error.relMse, own.error.relMse);
+    if (!isChance(pairedDifference(m.error, own.error), noticeable)) return {true, expectedError};
+    const double without = ownError * ownError / (ownError + shift);
+    return {shift > kNoticeable * ownError, isCheap || shift == 0 ? ownError + shift : without};
+}
+
+Outcome outcomeOf(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t at, size_t lever,
+                  double moreSamples) {
+    const Measurement& m = singles[at];
+    const Measurement& own = singles[0];
+    const double ownError = expectedError(levers, singles, own, moreSamples);
+    const double error = expectedError(levers, singles, m, moreSamples);
+    const bool isCheap = m.configuration[lever] < levers[lever].initial;
+    const bool random = own.bias.standardError > 0;
+    Outcome outcome = random                               ? noisyOutcome(m, own, isCheap, ownError, error)
+                      : changesSamples(levers[lever].kind) ? sampledOutcome(m, own, error)
+                                                           : deterministicOutcome(m, own, ownError, error);
+    // Of few pixels chance alone could be the difference, but that more samples have less noise needs no proof.
+    if (levers[lever].kind == LeverKind::samples && (isCheap ? error > ownError : error < ownError)) outcome = {true, error};
+    if (!outcome.differs) outcome.error = ownError;
+    return outcome;
 }
 
 Spread inverse(const Spread& s) {
     return {1 / s.median, 1 / s.upper, 1 / s.lower};
 }
 
-bool measurable(const Spread& slowdown) {
-    return !covers(slowdown, 1) && std::abs(slowdown.median - 1) >= kNoticeable;
+/// Fills what follows from the errors of a comparison of which a difference was measured.
+void compareErrors(const Measurement& cheap, const Measurement& accurate, Comparison& c) {
+    c.removed = 1 - c.errorAccurate / std::max(c.errorCheap, 1e-30);
+    c.change = c.removed >= 0 ? ErrorChange::less : ErrorChange::more;
+    c.wrongPixels = std::max(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels, 0.0);
+    c.usefulness += std::log(std::max(c.errorCheap, 1e-12) / std::max(c.errorAccurate, 1e-12));
 }
 
 Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t at, size_t lever,
@@ -79,25 +92,15 @@ Comparison compareSettings(const std::vector<Lever>& levers, const std::vector<M
     c.cheap = std::min(own, other);
     c.accurate = std::max(own, other);
     c.measurement = at;
-    const Measurement& cheap = other < own ? singles[at] : singles[0];
-    const Measurement& accurate = other < own ? singles[0] : singles[at];
-    c.slowdown = other < own ? inverse(singles[at].slowdown) : singles[at].slowdown;
-    const double time = measurable(c.slowdown) ? std::log(c.slowdown.median) : 0;
-    const bool random = singles[0].bias.standardError > 0;
-    const ErrorPair errors =
-        random ? noisyErrors(cheap, accurate, singles[at].shift, levers[lever].kind == LeverKind::samples ? 1 : moreSamples)
-        : changesSamples(levers[lever].kind) ? sampledErrors(cheap, accurate)
-                                             : deterministicErrors(cheap, accurate);
-    // Of few pixels chance alone could be the difference, but that more samples have less noise needs no proof.
-    const bool fewerSamples = levers[lever].kind == LeverKind::samples && errors.cheap > (1 + kNoticeable) * errors.accurate;
-    double error = 0;
-    if (errors.differ || fewerSamples) {
-        c.removed = 1 - errors.accurate / std::max(errors.cheap, 1e-30);
-        c.change = c.removed >= 0 ? ErrorChange::less : ErrorChange::more;
-        c.wrongPixels = std::max(cheap.sameSamples.wrongPixels - accurate.sameSamples.wrongPixels, 0.0);
-        error = std::log(std::max(errors.cheap, 1e-12) / std::max(errors.accurate, 1e-12));
-    }
-    c.usefulness = error - time;
+    c.sceneHasAccurate = other < own;
+    c.relativeTime = singles[at].slowdown;
+    c.slowdown = c.sceneHasAccurate ? inverse(c.relativeTime) : c.relativeTime;
+    c.usefulness = measurable(c.slowdown) ? -std::log(c.slowdown.median) : 0;
+    const double ownError = expectedError(levers, singles, singles[0], moreSamples);
+    const Outcome outcome = outcomeOf(levers, singles, at, lever, moreSamples);
+    c.errorCheap = c.sceneHasAccurate ? outcome.error : ownError;
+    c.errorAccurate = c.sceneHasAccurate ? ownError : outcome.error;
+    if (outcome.differs) compareErrors(singles[c.sceneHasAccurate ? at : 0], singles[c.sceneHasAccurate ? 0 : at], c);
     return c;
 }
 
@@ -106,30 +109,54 @@ std::string capitalised(std::string text) {
     return text;
 }
 
-std::string costPhrase(const Comparison& c, bool plural) {
-    const std::string s = plural ? "" : "s";
-    if (!measurable(c.slowdown)) return plural ? "have no measurable cost" : "has no measurable cost";
-    if (c.slowdown.median < 1) return "save" + s + " " + percent(1 - c.slowdown.median) + " of the time";
-    if (c.slowdown.median < 2) return "cost" + s + " " + percent(c.slowdown.median - 1) + " more time";
-    return "take" + s + " " + number(c.slowdown.median) + " times as long";
+/// "costs", "cost" of several, "would cost" of what the scene does not have.
+std::string verb(const Lever& lever, const Comparison& c, const std::string& one, const std::string& several) {
+    return c.sceneHasAccurate ? lever.plural ? several : one : "would " + several;
 }
 
-std::string changePhrase(const Comparison& c, bool plural) {
-    const std::string s = plural ? "" : "s";
-    if (c.change == ErrorChange::none) return "change" + s + " nothing that could be measured in the picture";
-    std::string phrase;
-    if (std::abs(c.removed) < kNoticeable)
-        phrase = "change" + s + " little of the error";
-    else if (c.change == ErrorChange::less)
-        phrase = "remove" + s + " " + percent(c.removed) + " of the error";
-    else if (c.removed > -1)
-        phrase = "add" + s + " " + percent(-c.removed) + " to the error";
-    else
-        phrase = "make" + s + " the error " + number(1 - c.removed) + " times as large";
+/// The second verb of a sentence, of which "would" says the first.
+std::string secondVerb(const Lever& lever, const Comparison& c, const std::string& word) {
+    return word + (c.sceneHasAccurate && !lever.plural ? "s" : "");
+}
+
+std::string costPhrase(const Lever& lever, const Comparison& c) {
+    const double time = c.relativeTime.median;
+    const std::string without = std::string(" without ") + (lever.plural ? "them" : "it");
+    const std::string cost = verb(lever, c, "costs", "cost");
+    if (!measurable(c.relativeTime)) return verb(lever, c, "has", "have") + " no measurable cost";
+    if (c.sceneHasAccurate && time < 1) return cost + " " + percent(1 - time) + " of the time";
+    if (c.sceneHasAccurate)
+        return cost + " no time (a picture takes " +
+               (time < 2 ? percent(time - 1) + " longer" : number(time) + " times as long") + without + ")";
+    if (time < 1) return "would save " + percent(1 - time) + " of the time";
+    return time < 2 ? cost + " " + percent(time - 1) + " more time" : "would take " + number(time) + " times as long";
+}
+
+std::string errorPhrase(const Lever& lever, const Comparison& c, double floor) {
+    const std::string figures =
+        " (" + errorFigure(c.errorAccurate, floor) + " instead of " + errorFigure(c.errorCheap, floor) + ")";
+    if (std::max(c.errorCheap, c.errorAccurate) <= floor)
+        return secondVerb(lever, c, "change") + " less of the error than can be told (" + errorFigure(floor, floor) + ")";
+    if (std::abs(c.removed) < kNoticeable) return secondVerb(lever, c, "change") + " little of the error";
+    if (c.change == ErrorChange::less)
+        return secondVerb(lever, c, "remove") + " " + percent(c.removed) + " of the error" + figures;
+    if (c.removed > -1) return secondVerb(lever, c, "add") + " " + percent(-c.removed) + " to the error" + figures;
+    return secondVerb(lever, c, "make") + " the error " + number(1 - c.removed) + " times as large" + figures;
+}
+
+std::string changePhrase(const Lever& lever, const Comparison& c, double floor) {
+    if (c.change == ErrorChange::none) return secondVerb(lever, c, "change") + " nothing that could be measured in the picture";
+    std::string phrase = errorPhrase(lever, c, floor);
     if (c.wrongPixels > kNoticeablePixels)
-        phrase += std::string(c.change == ErrorChange::more ? " at so few samples, but" : ";") + " without " +
-                  std::string(plural ? "them" : "it") + " " + percent(c.wrongPixels) + " of the pixels visibly change";
+        phrase += std::string(c.change == ErrorChange::more ? " at so few samples, but " : "; ") +
+                  (c.sceneHasAccurate ? "without " : "with ") + (lever.plural ? "them " : "it ") + percent(c.wrongPixels) +
+                  " of the pixels visibly change";
     return phrase;
+}
+
+/// "4" of "4 samples", beside "8 samples".
+std::string countAlone(const std::string& words) {
+    return words.substr(0, words.find(' '));
 }
 
 }  // namespace
@@ -154,21 +181,19 @@ std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const st
     return all;
 }
 
-bool standsOut(const Measurement& m, const Measurement& own) {
-    const auto differ = [](double a, double b) { return std::abs(a - b) > kSameTime * b; };
-    const bool sameErrors = m.relMse.lower <= own.relMse.upper && own.relMse.lower <= m.relMse.upper;
-    const bool time = !covers(m.slowdown, 1) && differ(m.slowdown.median, 1);
-    return time || (!sameErrors && differ(m.error.relMse, own.error.relMse));
+bool measurable(const Spread& relativeTime) {
+    return !covers(relativeTime, 1) && std::abs(relativeTime.median - 1) >= kNoticeable;
 }
 
-std::string sentence(const Lever& lever, const Comparison& c) {
-    const std::string cheap =
-        lever.plural && lever.kind != LeverKind::baked ? lever.settings[c.cheap].name : lever.settings[c.cheap].words;
-    const std::string subject = capitalised(lever.settings[c.accurate].words) + " instead of " + cheap;
-    if (c.change == ErrorChange::none && !measurable(c.slowdown))
-        return subject + (lever.plural ? " make" : " makes") +
+std::string sentence(const Lever& lever, const Comparison& c, double floor) {
+    const std::string& cheap = lever.settings[c.cheap].words;
+    const bool counts = lever.plural && lever.kind != LeverKind::baked;
+    const std::string subject =
+        capitalised(lever.settings[c.accurate].words) + " instead of " + (counts ? countAlone(cheap) : cheap);
+    if (c.change == ErrorChange::none && !measurable(c.relativeTime))
+        return subject + " " + verb(lever, c, "makes", "make") +
                " no difference that could be measured, neither in time nor in the picture.";
-    return subject + " " + costPhrase(c, lever.plural) + " and " + changePhrase(c, lever.plural) + ".";
+    return subject + " " + costPhrase(lever, c) + " and " + changePhrase(lever, c, floor) + ".";
 }
 
 std::string idleSentence(const Lever& lever) {
@@ -181,29 +206,6 @@ std::string verdict(const Comparison& c) {
     if (c.change == ErrorChange::none) return !time ? "either" : slower ? "spare" : "keep";
     if (c.wrongPixels > kNoticeablePixels || c.change == ErrorChange::less) return !slower || c.usefulness > 0 ? "keep" : "trade";
     return slower || !time ? "spare" : "trade";
-}
-
-std::vector<size_t> findings(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons) {
-    std::vector<size_t> order;
-    for (const bool known : {false, true})
-        for (size_t i = 0; i < comparisons.size(); ++i) {
-            const LeverKind kind = levers[comparisons[i].lever].kind;
-            if (comparisons[i].leading && (kind == LeverKind::samples || kind == LeverKind::integrator) == known)
-                order.push_back(i);
-        }
-    std::vector<size_t> chosen;
-    for (const char* wanted : {"keep", "spare"}) {
-        // What the scene does not do by itself it need not be told to do without.
-        const auto fits = [&](size_t i) {
-            const Comparison& c = comparisons[i];
-            return verdict(c) == wanted && (verdict(c) != std::string("spare") || c.accurate == levers[c.lever].initial);
-        };
-        const auto found = std::find_if(order.begin(), order.end(), fits);
-        if (found != order.end()) chosen.push_back(*found);
-    }
-    for (size_t i : order)
-        if (chosen.size() < 2 && std::find(chosen.begin(), chosen.end(), i) == chosen.end()) chosen.push_back(i);
-    return chosen;
 }
 
 }  // namespace cost

@@ -33,7 +33,28 @@ std::string percent(double share) {
 std::string number(double value) {
     if (value == 0) return "0";
     const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    return magnitude < -4 ? significant(value, 2) : fixed(value, std::max(2 - magnitude, 0));
+    return magnitude < -6 ? significant(value, 2) : fixed(value, std::max(2 - magnitude, 0));
+}
+
+std::string errorFigure(double error, double floor) {
+    return error > floor || floor <= 0 ? number(error) : "≤ " + number(floor);
+}
+
+std::string errorChange(double from, double to, double floor) {
+    const std::string now = errorFigure(from, floor);
+    const std::string then = errorFigure(to, floor);
+    if (now == then) return "the error stays at " + now;
+    return std::string("the error ") + (to > from ? "rises" : "falls") + " from " + now + " to " + then;
+}
+
+std::string relativeTime(double ratio) {
+    if (ratio >= 2) return number(ratio) + " ×";
+    return (ratio < 1 ? "−" : "+") + percent(std::abs(ratio - 1));
+}
+
+size_t letterCount(const std::string& text) {
+    const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+    return static_cast<size_t>(std::count_if(text.begin(), text.end(), begins));
 }
 
 }  // namespace cost

@@ -20,33 +20,33 @@ const std::vector<Term> kTerms = {
     {"absorption",
      "Absorption",
      {"absorption"},
-     "A medium takes light away, the more the longer the way through it. Lever <code>absorption</code>."},
+     "A medium takes light away, the more the longer the way through it. Setting <code>absorption</code>."},
     {"bias", "Bias", {"bias"}, "The part of the error that more samples do not remove."},
     {"blob", "Blob", {"blob"}, "The file (.mrt) that <code>minirtc bake</code> makes of a scene."},
     {"bounce",
      "Bounce",
      {"bounces", "bounce"},
-     "A ray that is reflected or refracted goes on after a bounce, at most so many times. Lever <code>depth</code>, "
+     "A ray that is reflected or refracted goes on after a bounce, at most so many times. Setting <code>depth</code>, "
      "<code>--max-depth</code>."},
     {"cutoff",
      "Cut-off",
      {"cut-off"},
-     "The share of the light up to which a ray counts as weak. Lever <code>cutoff</code>, <code>--cutoff</code>."},
+     "The share of the light up to which a ray counts as weak. Setting <code>cutoff</code>, <code>--cutoff</code>."},
     {"dispersion",
      "Dispersion",
      {"dispersion"},
-     "Each colour of light refracts by another angle: of three channels, or of single wavelengths (spectral). Lever "
+     "Each colour of light refracts by another angle: of three channels, or of single wavelengths (spectral). Setting "
      "<code>dispersion</code>."},
     {"double",
      "Double precision",
      {"double precision", "single precision"},
-     "Numbers of 64 bits instead of the 32 of single precision, where a ray meets a surface. Lever <code>precision</code>."},
+     "Numbers of 64 bits instead of the 32 of single precision, where a ray meets a surface. Setting <code>precision</code>."},
     {"fresnel",
      "Fresnel",
      {"Fresnel"},
      "How much of the light a smooth surface reflects and how much it lets in: exact by Fresnel's equations, or by Schlick's "
      "formula, which comes near "
-     "them. Lever <code>fresnel</code>."},
+     "them. Setting <code>fresnel</code>."},
     {"integrator",
      "Integrator",
      {"integrator"},
@@ -55,13 +55,12 @@ const std::vector<Term> kTerms = {
      "Kernel",
      {"kernels", "kernel"},
      "A program that runs on the device; its <b>pipeline</b> is what the driver has translated it to."},
-    {"lever", "Lever", {"levers", "lever"}, "A setting that trades accuracy for time."},
     {"light",
      "Light, ways to find it",
      {"both ways to find light", "light found by", "power heuristic", "balance heuristic"},
      "A path tracer finds light where surfaces send its rays, or by picking lights (next-event estimation, NEE). Multiple "
      "importance sampling (MIS) does both and "
-     "weighs them by the power or the balance heuristic (Veach 1997). Lever <code>light_sampling</code>, "
+     "weighs them by the power or the balance heuristic (Veach 1997). Setting <code>light_sampling</code>, "
      "<code>--light-sampling</code>."},
     {"llvmpipe", "llvmpipe", {"llvmpipe"}, "Mesa's driver lavapipe, which runs a graphics card's programs on the processor."},
     {"look-wrong",
@@ -74,24 +73,20 @@ const std::vector<Term> kTerms = {
      "Möller–Trumbore",
      {"Möller–Trumbore"},
      "The usual test of a ray against a triangle (1997). Between two triangles a ray may slip through; with an epsilon, flat "
-     "and near hits get lost too. Lever "
+     "and near hits get lost too. Setting "
      "<code>intersection</code>."},
     {"nesting",
      "Nesting of volumes",
      {"nesting"},
      "How a ray knows which media it is in, such as ice in whisky in glass: ordered, by a set in which one displaces the "
      "others; by parity, where the first of two "
-     "that overlap counts; or not at all. Lever <code>nesting</code>."},
+     "that overlap counts; or not at all. Setting <code>nesting</code>."},
     {"noise", "Noise", {"noise"}, "The part of the error that is chance, for want of samples."},
     {"normals",
      "Normals",
      {"smooth normals", "flat normals"},
-     "The directions by which surfaces are shaded: flat, one a face; smooth, interpolated between the corners. Lever "
+     "The directions by which surfaces are shaded: flat, one a face; smooth, interpolated between the corners. Setting "
      "<code>normals</code>."},
-    {"pareto",
-     "Pareto front",
-     {"Pareto front"},
-     "The choices that none beats in both time and error: from there, less of one is more of the other."},
     {"path",
      "Path tracer",
      {"path tracers", "path tracer"},
@@ -103,11 +98,11 @@ const std::vector<Term> kTerms = {
      {"ray offset"},
      "How far off a surface the rays start that leave it, lest rounding make them hit it again: constant, scaled by the "
      "distance to the camera, or just beyond the "
-     "error that rounding can have made (error-bounded). Lever <code>ray_offset</code>."},
+     "error that rounding can have made (error-bounded). Setting <code>ray_offset</code>."},
     {"reference",
      "Reference",
      {"reference"},
-     "The picture that the others are held against: every lever at its most accurate, and many samples."},
+     "The picture that the others are held against: every setting at its most accurate, and many samples."},
     {"relmse",
      "relMSE",
      {"relMSE"},
@@ -117,13 +112,13 @@ const std::vector<Term> kTerms = {
      "Watertight",
      {"watertight"},
      "A test of a ray against triangles that leaves no gap along an edge which two of them share (Woop, Benthin and Wald "
-     "2013). Lever <code>intersection</code>."},
+     "2013). Setting <code>intersection</code>."},
     {"weak",
      "Weak rays",
      {"weak rays", "Russian roulette", "roulette"},
      "Those of Whitted's tracer that carry no more light than the cut-off. They end, or play Russian roulette: few survive "
      "and count for the others, "
-     "which is noise in place of light that is always missing. Lever <code>weak_rays</code>."},
+     "which is noise in place of light that is always missing. Setting <code>weak_rays</code>."},
     {"whitted",
      "Whitted's tracer",
      {"Whitted's"},

@@ -1,6 +1,7 @@
 #include "half_time.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "commands.hpp"
 #include "figures.hpp"
@@ -46,9 +47,31 @@ double wrongByLevers(const Report& report, const Configuration& configuration) {
     return moreWrongPixels(report, *found);
 }
 
-std::string errorChange(double from, double to) {
-    if (number(from) == number(to)) return "the error stays at " + number(from);
-    return std::string("the error ") + (to > from ? "rises" : "falls") + " from " + number(from) + " to " + number(to);
+/// Samples of a measurement, at the scene's own samples.
+uint32_t samplesAtScene(const Report& report, const Measurement& m) {
+    return static_cast<uint32_t>(std::lround(samplesOf(report.levers, m.configuration) * report.moreSamples()));
+}
+
+/// The measurement with the settings of a choice and about as many samples, where its time could be told from that of the scene's own settings.
+std::optional<size_t> measurementOf(const Report& report, const BudgetChoice& choice) {
+    constexpr double kAbout = 0.1;
+    const size_t lever = findLever(report.levers, LeverKind::samples);
+    for (size_t i = 0; i < report.measurements.size(); ++i) {
+        const Measurement& m = report.measurements[i];
+        const bool sameLevers = with(m.configuration, lever, choice.configuration[lever]) == choice.configuration;
+        const double samples = samplesAtScene(report, m);
+        if (sameLevers && measurable(m.slowdown) && std::abs(samples - choice.samples) <= kAbout * choice.samples) return i;
+    }
+    return std::nullopt;
+}
+
+/// Where the choice was measured, its figures are those of the tables.
+void takeMeasured(const Report& report, HalfTime& half) {
+    half.measurement = measurementOf(report, *half.choice);
+    if (!half.measurement) return;
+    const Measurement& m = report.measurements[*half.measurement];
+    half.choice = {m.configuration, samplesAtScene(report, m), half.own.ms * m.slowdown.median,
+                   report.errorOf(*half.measurement)};
 }
 
 }  // namespace
@@ -62,19 +85,19 @@ HalfTime halfTime(const Report& report) {
     const BudgetChoice advice = recommendedChoice(report);
     const bool same = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
     half.advised = same || report.measurements[recommended(report)].slowdown.median <= 0.5;
-    if (half.choice) half.wrongPixels = wrongByLevers(report, half.choice->configuration);
+    if (!half.choice) return half;
+    half.wrongPixels = wrongByLevers(report, half.choice->configuration);
+    takeMeasured(report, half);
     return half;
 }
 
 std::string halfTimeSentence(const Report& report) {
     const HalfTime half = halfTime(report);
     if (!half.choice) return "Nothing that was measured halves the time, or surely saves " + percent(kLeastSaving) + " of it.";
-    if (half.advised) return "This halves the time already.";
-    std::string text =
-        half.fits ? "To halve the time, take " : "Nothing that was measured halves the time. What surely saves the most is ";
-    text += changesInWords(report, *half.choice) + (half.fits ? ": about " : ": ") + percent(1 - half.choice->ms / half.own.ms) +
-            " less time, and " + errorChange(half.own.relMse, half.choice->relMse);
-    if (report.samples() < report.sceneSamples) text += ", as expected at the scene's own samples";
+    if (half.advised) return "The same: it halves the time already.";
+    std::string text = half.fits ? "Take " : "Nothing that was measured halves the time. What surely saves the most is ";
+    text += changesInWords(report, *half.choice) + (half.measurement ? ": " : ": about ") + percent(1 - half.relativeTime()) +
+            " less time, and " + errorChange(half.own.relMse, half.choice->relMse, report.floor());
     if (half.wrongPixels > kNoticeablePixels)
         text += "; " + percent(half.wrongPixels) + " of the pixels visibly change, more than a recommendation may";
     return text + ".";

@@ -27,6 +27,9 @@ std::string prose(const std::string& text) {
     std::string out = escaped(text);
     for (const char* unit : {" %", " ms"})
         for (size_t at = out.find(unit); at != std::string::npos; at = out.find(unit, at + 1)) out.replace(at, 1, "\u00a0");
+    const std::string atMost = "≤ ";
+    for (size_t at = out.find(atMost); at != std::string::npos; at = out.find(atMost, at + 1))
+        out.replace(at, atMost.size(), "≤\u00a0");
     return out;
 }
 

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "../common/command_line.hpp"
+#include "action.hpp"
 #include "bake_levers.hpp"
+#include "better_picture.hpp"
 #include "commands.hpp"
 #include "half_time.hpp"
 #include "hard_case_levers.hpp"
@@ -96,18 +98,20 @@ cost::Report run(const Options& options) {
 
 /// What a person without the page wants to know.
 void print(const cost::Report& report) {
-    const auto printAdvice = [&](const std::string& advice, const cost::BudgetChoice& choice) {
-        std::cout << advice << "\n";
-        for (const std::string& command : commandsFor(report, choice)) std::cout << "  " << command << "\n";
+    const auto printAdvice = [&](const std::string& goal, const std::string& advice, const cost::BudgetChoice* choice) {
+        std::cout << goal << ": " << advice << "\n";
+        if (!choice) return;
+        for (const std::string& command : commandsFor(report, *choice)) std::cout << "  " << command << "\n";
     };
-    printAdvice(recommendationSentence(report), recommendedChoice(report));
+    const cost::BudgetChoice advised = recommendedChoice(report);
+    printAdvice("The same picture in less time", recommendationSentence(report), &advised);
     const cost::HalfTime half = halfTime(report);
-    if (half.choice && !half.advised)
-        printAdvice(halfTimeSentence(report), *half.choice);
-    else
-        std::cout << halfTimeSentence(report) << "\n";
-    for (const cost::Comparison& c : report.comparisons)
-        if (c.leading) std::cout << sentence(report.levers[c.lever], c) << "\n";
+    printAdvice("Half the time", halfTimeSentence(report), half.isShown() ? &*half.choice : nullptr);
+    printAdvice("A better picture", betterPictureSentence(report), nullptr);
+    for (size_t i : byAction(report)) {
+        const cost::Comparison& c = report.comparisons[i];
+        if (c.leading) std::cout << instruction(report, c) << ". " << sentence(report.levers[c.lever], c, report.floor()) << "\n";
+    }
     if (report.budgetMs > 0) std::cout << budgetSentence(report) << "\n";
 }
 

@@ -175,6 +175,13 @@ Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Confi
     return m;
 }
 
+TimedPicture Measurer::once(const Configuration& configuration) {
+    TimedPicture timed;
+    const Picture picture = render(configuration, 0, 0, samplesOf(scenes_.levers(), configuration), timed.ms);
+    timed.relMse = compare(picture, reference_.mean).relMse;
+    return timed;
+}
+
 std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& configurations, uint32_t repeats, double deadline) {
     scenes_.prepare(configurations);
     std::vector<Configuration> running;

@@ -50,6 +50,11 @@ struct Failure {
     std::string reason;
 };
 
+struct TimedPicture {
+    double ms = 0;
+    double relMse = 0;
+};
+
 class Measurer {
 public:
     Measurer(Scenes& scenes, uint32_t width, uint32_t height, Progress& progress)
@@ -66,6 +71,9 @@ public:
     /// Renders all of them in turn, in rounds, `repeats` times or until `deadline` of the progress's clock has passed, but kLeastRounds times if that many are asked for.
     /// The first one is what the others are compared with. What failed is left out.
     std::vector<Measurement> measure(const std::vector<Configuration>& configurations, uint32_t repeats, double deadline);
+
+    /// Renders one picture and holds it against the reference. Throws std::runtime_error.
+    TimedPicture once(const Configuration& configuration);
 
     const std::vector<Failure>& failures() const { return failures_; }
 

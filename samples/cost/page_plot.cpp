@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "action.hpp"
+#include "commands.hpp"
 #include "figures.hpp"
 #include "html.hpp"
+#include "pareto.hpp"
 #include "plot.hpp"
 #include "recommendation.hpp"
 
@@ -18,23 +22,48 @@ struct Layout {
     size_t longestName;  // letters that a label has room for beside its number; 0: numbers alone
 };
 
-constexpr Layout kNarrow = {"narrow", 320, 330, 20, 0};
-constexpr Layout kWide = {"wide", 860, 480, 30, 38};
+constexpr Layout kNarrow = {"narrow", 340, 360, 12, 0};
+constexpr Layout kWide = {"wide", 860, 480, 18, 44};
+
+/// What the plot shows, worked out once.
+struct Shown {
+    const Report& report;
+    HalfTime half;
+    size_t advised;
+    std::vector<size_t> order;  // measurements, the most important first
+
+    bool isHalf(size_t i) const { return half.isShown() && half.measurement == i; }
+    bool isExpectedShown() const { return half.isShown() && !half.measurement; }
+    bool isPale(size_t i) const {
+        if (i == 0 || i == advised || isHalf(i)) return false;
+        const Comparison* c = report.comparisonOf(i);
+        return c ? adviceOn(report, *c).action == Action::hardlyMatters : isLikeOwn(report, i);
+    }
+    /// Of each setting the leading choice that changes the picture, and all numbers of samples.
+    bool isWorthNaming(const Comparison& c) const {
+        return (c.leading || report.levers[c.lever].kind == LeverKind::samples) && c.change != ErrorChange::none;
+    }
+    /// Whether a measurement is worth a label.
+    bool isNamed(size_t i) const {
+        const Comparison* c = report.comparisonOf(i);
+        const bool onFront = std::find(report.front.begin(), report.front.end(), i) != report.front.end();
+        return i == 0 || i == advised || isHalf(i) || onFront || (!isPale(i) && (!c || isWorthNaming(*c)));
+    }
+};
 
 /// How far a measurement is from the scene's own settings in the plot.
 double distanceFromOwn(const Report& report, size_t i) {
-    const Measurement& own = report.measurements.front();
-    const Measurement& m = report.measurements[i];
-    return std::hypot(std::log(m.ms.median / own.ms.median),
-                      std::log(std::max(m.error.relMse, 1e-9) / std::max(own.error.relMse, 1e-9)));
+    return std::hypot(std::log(report.measurements[i].slowdown.median),
+                      std::log(std::max(report.errorOf(i), 1e-9) / std::max(report.errorOf(0), 1e-9)));
 }
 
-/// The scene's own settings, what is recommended, the front by time, and the others from the farthest on.
-std::vector<size_t> byImportance(const Report& report) {
-    std::vector<size_t> order = {0, recommended(report)};
+/// The scene's own settings, what is recommended, what halves the time, the front by time, and the others from the farthest on.
+std::vector<size_t> byImportance(const Report& report, const HalfTime& half, size_t advised) {
+    std::vector<size_t> order = {0, advised};
+    if (half.isShown() && half.measurement) order.push_back(*half.measurement);
     order.insert(order.end(), report.front.begin(), report.front.end());
-    std::vector<size_t> others;
-    for (size_t i = 0; i < report.measurements.size(); ++i) others.push_back(i);
+    std::vector<size_t> others(report.measurements.size());
+    std::iota(others.begin(), others.end(), size_t{0});
     std::stable_sort(others.begin(), others.end(),
                      [&](size_t a, size_t b) { return distanceFromOwn(report, a) > distanceFromOwn(report, b); });
     order.insert(order.end(), others.begin(), others.end());
@@ -44,102 +73,125 @@ std::vector<size_t> byImportance(const Report& report) {
     return once;
 }
 
-bool isPale(const Report& report, size_t i) {
-    return i > 0 && i != recommended(report) && !standsOut(report.measurements[i], report.measurements.front());
+Shown shownOf(const Report& report) {
+    Shown shown{report, halfTime(report), recommended(report), {}};
+    shown.order = byImportance(report, shown.half, shown.advised);
+    return shown;
 }
 
-/// The measurements that have labels.
-std::vector<size_t> labelled(const Report& report, const Layout& layout) {
-    std::vector<size_t> chosen;
-    for (size_t i : byImportance(report))
-        if (chosen.size() < layout.mostLabels && !isPale(report, i)) chosen.push_back(i);
-    return chosen;
+Mark markOf(const Shown& shown, size_t i) {
+    if (i == shown.advised) return Mark::star;
+    if (shown.isHalf(i)) return Mark::square;
+    return groupOf(shown.report, i) == "combination" && !shown.isPale(i) ? Mark::hollowDiamond : Mark::disc;
 }
 
-PlotPoint pointOf(const Report& report, const Layout& layout, size_t i) {
-    const Measurement& m = report.measurements[i];
-    const std::vector<size_t> all = labelled(report, layout);
+PlotPoint pointOf(const Shown& shown, size_t i) {
+    const Measurement& m = shown.report.measurements[i];
     PlotPoint point;
     point.number = std::to_string(i);
-    point.name = report.nameOf(i);
-    point.group = groupOf(report, i);
-    point.advised = i == recommended(report);
-    point.pale = isPale(report, i);
-    if (std::find(all.begin(), all.end(), i) != all.end())
-        point.text = point.name.size() <= layout.longestName ? point.number + ": " + point.name : point.number;
-    point.time = m.ms.median, point.timeLower = m.ms.lower, point.timeUpper = m.ms.upper;
-    point.error = m.error.relMse;
+    point.name = shown.report.nameOf(i);
+    point.group = shown.isHalf(i) ? "half" : groupOf(shown.report, i);
+    point.mark = markOf(shown, i);
+    point.important = i == 0 || i == shown.advised || shown.isHalf(i);
+    point.pale = shown.isPale(i);
+    if (shown.isNamed(i)) point.text = point.number;
+    point.time = m.slowdown.median, point.timeLower = m.slowdown.lower, point.timeUpper = m.slowdown.upper;
+    point.error = shown.report.errorOf(i);
     return point;
 }
 
-Plot plotOf(const Report& report, const Layout& layout, const std::vector<size_t>& order) {
+PlotPoint expectedPoint(const Shown& shown) {
+    PlotPoint point;
+    point.number = kExpectedNumber;
+    point.name = changesInWords(shown.report, *shown.half.choice);
+    point.group = "half";
+    point.mark = Mark::hollowSquare;
+    point.important = true;
+    point.text = point.number;
+    point.time = point.timeLower = point.timeUpper = shown.half.relativeTime();
+    point.error = shown.half.choice->relMse;
+    return point;
+}
+
+/// The points in the order of `shown`; what is expected to halve the time comes after the scene's own settings and what is recommended.
+Plot pointsOf(const Shown& shown) {
     Plot plot;
+    for (size_t i : shown.order) plot.points.push_back(pointOf(shown, i));
+    const size_t first = shown.advised == 0 ? 1 : 2;
+    const size_t more = shown.isExpectedShown() ? 1 : 0;
+    if (more) plot.points.insert(plot.points.begin() + static_cast<ptrdiff_t>(first), expectedPoint(shown));
+    for (size_t i : shown.report.front) {
+        const auto at = static_cast<size_t>(std::find(shown.order.begin(), shown.order.end(), i) - shown.order.begin());
+        plot.front.push_back(at < first ? at : at + more);
+    }
+    return plot;
+}
+
+Plot plotOf(const Shown& shown, const Layout& layout) {
+    Plot plot = pointsOf(shown);
     plot.width = layout.width;
     plot.height = layout.height;
     plot.cssClass = layout.cssClass;
-    plot.floor = report.reference.relMse;
-    plot.halfTime = report.measurements.front().ms.median / 2;
-    for (size_t i : order) plot.points.push_back(pointOf(report, layout, i));
-    for (size_t i : report.front)
-        plot.front.push_back(static_cast<size_t>(std::find(order.begin(), order.end(), i) - order.begin()));
+    plot.floor = shown.report.floor();
+    size_t labels = 0;
+    for (PlotPoint& point : plot.points) {
+        if (point.text.empty()) continue;
+        if (labels++ >= layout.mostLabels) point.text = "";
+        if (!point.text.empty() && letterCount(point.name) <= layout.longestName) point.text += ": " + point.name;
+    }
     return plot;
 }
 
 /// The names of numbers that stand alone in the plot.
-std::string numbersList(const Report& report, const std::string& cssClass, std::vector<size_t> numbers) {
-    std::sort(numbers.begin(), numbers.end());
+std::string numbersList(const Plot& plot, const std::vector<size_t>& points) {
     std::string items;
-    for (size_t i : numbers)
-        items += element("li", "",
-                         "<b class=\"" + groupOf(report, i) + "\">" + std::to_string(i) + "</b> " + escaped(report.nameOf(i)));
-    return items.empty() ? "" : element("ul", "class=\"numbers " + cssClass + "\"", items);
+    for (size_t i : points) {
+        if (plot.points[i].number == kExpectedNumber) continue;  // the legend names it
+        items += element(
+            "li", "",
+            "<b class=\"" + plot.points[i].group + "\">" + plot.points[i].number + "</b> " + escaped(plot.points[i].name));
+    }
+    return items.empty() ? "" : element("ul", "class=\"numbers " + plot.cssClass + "\"", items);
 }
 
 /// With the names of its numbers.
-std::string plotOf(const Report& report, const Layout& layout) {
-    const std::vector<size_t> order = byImportance(report);
-    const DrawnPlot drawn = drawPlot(plotOf(report, layout, order));
-    std::vector<size_t> numbers;
-    for (size_t i : drawn.numbersAlone) numbers.push_back(order[i]);
-    return drawn.svg + numbersList(report, layout.cssClass, numbers);
+std::string plotWithNames(const Shown& shown, const Layout& layout) {
+    const Plot plot = plotOf(shown, layout);
+    const DrawnPlot drawn = drawPlot(plot);
+    return drawn.svg + numbersList(plot, drawn.numbersAlone);
 }
 
 std::string legendItem(const std::string& cssClass, const std::string& mark, const std::string& content) {
     return element("li", "class=\"" + cssClass + "\"", "<svg viewBox=\"0 0 12 12\">" + mark + "</svg>" + content);
 }
 
-std::string legend(const Report& report) {
-    const auto any = [&](const auto& holds) {
-        for (size_t i = 1; i < report.measurements.size(); ++i)
-            if (holds(i)) return true;
-        return false;
-    };
-    const auto disc = [](const char* radius) {
-        return std::string("<circle cx=\"6\" cy=\"6\" r=\"") + radius + "\" fill=\"currentColor\"/>";
-    };
-    const size_t advised = recommended(report);
-    std::string items = legendItem(groupOf(report, advised), "<path d=\"" + starPath(6, 6, 7) + "\" fill=\"currentColor\"/>",
-                                   "recommended: " + escaped(report.nameOf(advised)));
-    if (advised > 0) items += legendItem("own", disc("5"), "the scene's own settings");
-    items += legendItem("lever", disc("4"), "one lever moved");
-    if (any([&](size_t i) { return groupOf(report, i) == "combination"; }))
-        items += legendItem("combination",
-                            "<path d=\"M1 6l5-5 5 5-5 5z\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"1.6\"/>",
-                            "several moved");
-    if (any([&](size_t i) { return isPale(report, i); }))
-        items += legendItem("lever pale", disc("2.5"), "like the scene's own settings");
-    items += legendItem("", "<path d=\"M0 6H12\" stroke=\"var(--front)\" stroke-width=\"2\"/>",
-                        "Pareto front: nothing measured is surely both faster and more accurate than these");
-    return element("ul", "class=\"legend\"", items);
+/// The marks of single choices: what is recommended, the scene's own settings, what halves the time.
+std::string choicesLegend(const Shown& shown) {
+    const Report& report = shown.report;
+    std::string items = legendItem(groupOf(report, shown.advised), markSvg(Mark::star, 6, 6, 7),
+                                   "recommended: " + escaped(report.nameOf(shown.advised)));
+    if (shown.advised > 0) items += legendItem("own", markSvg(Mark::disc, 6, 6, 5), "the scene's own settings");
+    if (!shown.half.isShown()) return items;
+    const std::string what = shown.half.fits ? "half the time: " : "the fastest: ";
+    const std::string name = escaped(changesInWords(report, *shown.half.choice));
+    return items + (shown.half.measurement ? legendItem("half", markSvg(Mark::square, 6, 6, 5), what + name)
+                                           : legendItem("half", markSvg(Mark::hollowSquare, 6, 6, 5),
+                                                        what + name + " (" + kExpectedNumber + ", expected, not measured)"));
 }
 
-std::string paleSentence(const Report& report) {
-    std::string names;
-    for (size_t i = 1; i < report.measurements.size(); ++i)
-        if (isPale(report, i)) names += (names.empty() ? "" : "; ") + report.nameOf(i) + " (" + std::to_string(i) + ")";
-    if (names.empty()) return "";
-    return " Small pale dots have no label: in time and in error they are like the scene's own settings, but for chance or " +
-           percent(kSameTime) + ". They are " + names + ".";
+std::string legend(const Shown& shown) {
+    const auto any = [&](const auto& holds) {
+        return std::any_of(shown.order.begin(), shown.order.end(), [&](size_t i) { return i > 0 && holds(i); });
+    };
+    std::string items = choicesLegend(shown) + legendItem("lever", markSvg(Mark::disc, 6, 6, 4), "one setting changed");
+    if (any([&](size_t i) { return markOf(shown, i) == Mark::hollowDiamond; }))
+        items += legendItem("combination", markSvg(Mark::hollowDiamond, 6, 6, 5.5), "several changed");
+    if (any([&](size_t i) { return shown.isPale(i); }))
+        items += legendItem("lever pale", markSvg(Mark::disc, 6, 6, 2.5), "hardly matters");
+    if (shown.report.front.size() > 1)
+        items += legendItem("front-line", "<path d=\"M0 6H12\"/>",
+                            "the best found: further along, a picture takes longer and is surely more accurate");
+    return element("ul", "class=\"legend\"", items);
 }
 
 }  // namespace
@@ -148,16 +200,24 @@ std::string groupOf(const Report& report, size_t measurement) {
     return measurement == 0 ? "own" : measurement < report.singles ? "lever" : "combination";
 }
 
+std::string recommendedBadge() {
+    return " <span class=\"badge\">★ recommended</span>";
+}
+
+std::string halfTimeBadge(const HalfTime& half) {
+    const std::string name = half.fits ? "half the time" : "the fastest";
+    return " <span class=\"badge\">" + (half.measurement ? "■ " + name : "□ " + name + ", expected") + "</span>";
+}
+
 std::string plotSection(const Report& report) {
+    const Shown shown = shownOf(report);
     std::string plots;
-    for (const Layout& layout : {kNarrow, kWide}) plots += plotOf(report, layout);
-    return element("h2", "", "Error against time") + element("div", "class=\"card\"", plots + legend(report)) +
-           element(
-               "p", "class=\"soft\"",
-               prose(
-                   "The numbers are those of the table. Left is faster, lower is more accurate; both axes are logarithmic; bars "
-                   "span the middle half of the repeats. A dot without a label is in the table, by its time and its error." +
-                   paleSentence(report)));
+    for (const Layout& layout : {kNarrow, kWide}) plots += plotWithNames(shown, layout);
+    return element("h2", "", "Error against time") + element("div", "class=\"card\"", plots + legend(shown)) +
+           element("p", "class=\"soft\"",
+                   "Each mark is a picture with other settings: further left is faster, further down more accurate. The numbers "
+                   "are those of the table "
+                   "above and of <a href=\"#figures\">all figures</a>; a bar is how far the time is known.");
 }
 
 }  // namespace cost

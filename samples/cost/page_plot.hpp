@@ -2,12 +2,19 @@
 #pragma once
 #include <string>
 
-#include "report.hpp"
+#include "half_time.hpp"
 
 namespace cost {
 
 /// "own", "lever" or "combination": the class of what shows a measurement.
 std::string groupOf(const Report& report, size_t measurement);
+
+/// The number of what halves the time, where it was not measured; it stands behind all measurements.
+constexpr const char* kExpectedNumber = "½";
+
+/// In tables, with the mark that the plot has.
+std::string recommendedBadge();
+std::string halfTimeBadge(const HalfTime& half);
 
 std::string plotSection(const Report& report);
 

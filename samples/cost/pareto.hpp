@@ -1,19 +1,14 @@
 // Which of several choices no other one beats in both time and error.
 #pragma once
-#include "comparison.hpp"
+#include "report.hpp"
 
 namespace cost {
 
-struct Tradeoff {
-    double time = 0;
-    double error = 0;
-};
+/// Whether a measurement is like the scene's own settings, in time and in the picture, but for chance and 2 %.
+bool isLikeOwn(const Report& report, size_t measurement);
 
-/// Numbers of the points on the front, by growing time. Of equal points the first.
-std::vector<size_t> paretoFront(const std::vector<Tradeoff>& points);
-
-/// Numbers of the measurements on the front, by growing time; the first one is of the scene's own settings. What is like these but for chance beats nothing, and
-/// a time that cannot be told from theirs counts as theirs.
-std::vector<size_t> surelyOnFront(const std::vector<Measurement>& measurements);
+/// Numbers of the measurements on the front, by growing time: each takes longer than the one before it and is surely more accurate. What is like the scene's
+/// own settings but for chance, or faster than these but for chance, is not on it.
+std::vector<size_t> surelyOnFront(const Report& report);
 
 }  // namespace cost

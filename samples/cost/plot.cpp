@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "figures.hpp"
 #include "html.hpp"
 #include "plot_labels.hpp"
 
@@ -46,7 +47,7 @@ Axis axisAround(const std::vector<double>& values, double from, double to) {
 std::vector<double> ticksOf(const Axis& axis) {
     const double span = axis.high - axis.low;
     const std::vector<double> steps = span > 2.5   ? std::vector<double>{1}
-                                      : span > 1.2 ? std::vector<double>{1, 3}
+                                      : span > 1.2 ? std::vector<double>{1, 2, 5}
                                                    : std::vector<double>{1, 1.5, 2, 3, 5, 7};
     std::vector<double> ticks;
     for (double power = std::floor(axis.low); power <= axis.high; power += 1)
@@ -58,9 +59,7 @@ std::vector<double> ticksOf(const Axis& axis) {
 /// Of a text in the plot's letters, at most.
 double lengthOf(const std::string& content) {
     constexpr double kLetter = 6.4;
-    double length = 0;
-    for (char c : content) length += (static_cast<unsigned char>(c) & 0xc0) == 0x80 ? 0 : kLetter;
-    return length;
+    return kLetter * static_cast<double>(letterCount(content));
 }
 
 std::string text(double x, double y, const std::string& cssClass, const std::string& anchor, const std::string& content) {
@@ -71,6 +70,19 @@ std::string text(double x, double y, const std::string& cssClass, const std::str
 std::string line(double x1, double y1, double x2, double y2, const std::string& cssClass) {
     return "<line x1=\"" + fixed(x1) + "\" y1=\"" + fixed(y1) + "\" x2=\"" + fixed(x2) + "\" y2=\"" + fixed(y2) + "\" class=\"" +
            cssClass + "\"/>\n";
+}
+
+/// Five points, within a circle of `radius` around x and y, as the data of a path.
+std::string starPath(double x, double y, double radius) {
+    constexpr double kPi = 3.14159265358979;
+    constexpr double kInner = 0.45;
+    std::string path;
+    for (int i = 0; i < 10; ++i) {
+        const double r = i % 2 ? kInner * radius : radius;
+        const double angle = kPi * i / 5;
+        path += (i ? "L" : "M") + fixed(x + r * std::sin(angle)) + " " + fixed(y - r * std::cos(angle));
+    }
+    return path + "z";
 }
 
 class Drawing {
@@ -92,7 +104,9 @@ public:
         drawn.svg = "<svg class=\"plot " + plot_.cssClass + "\" viewBox=\"0 0 " + fixed(plot_.width) + " " + fixed(plot_.height) +
                     "\" role=\"img\" aria-label=\"Error against time, both by their logarithm\">\n" + axes() + front();
         const std::vector<LabelPlace> places = labelPlaces();
-        for (size_t i = plot_.points.size(); i-- > 0;) drawn.svg += mark(plot_.points[i]);
+        for (const bool hollow : {false, true})  // what a hollow mark surrounds shows
+            for (size_t i = plot_.points.size(); i-- > 0;)
+                if (isHollow(plot_.points[i]) == hollow) drawn.svg += mark(plot_.points[i]);
         for (size_t i = 0; i < places.size(); ++i) drawn.svg += leader(plot_.points[i], places[i]);
         for (size_t i = 0; i < places.size(); ++i) {
             if (!places[i].placed) continue;
@@ -109,32 +123,41 @@ private:
     static constexpr double kLeft = 46, kRight = 12, kTop = 22, kBottom = 40, kText = 11;
     static constexpr double kApart = 5;  // two labels side by side, so that numbers do not run together
     static constexpr double kLeastError = 1e-9;
+    static constexpr double kHalf = 0.5;  // of the time
     static constexpr const char* kFloorText = "the reference's own error";
     static constexpr const char* kHalfText = "half the time";
 
     double yOf(const PlotPoint& p) const { return y_.at(std::max(p.error, kLeastError)); }
 
-    static double radiusOf(const PlotPoint& p) { return p.advised ? 10 : p.pale ? 2.5 : p.group == "own" ? 6 : 4.5; }
+    static bool isHollow(const PlotPoint& p) { return p.mark == Mark::hollowDiamond || p.mark == Mark::hollowSquare; }
+
+    static double radiusOf(const PlotPoint& p) {
+        if (p.pale) return 2.5;
+        if (p.mark == Mark::star) return 10;
+        if (p.mark == Mark::hollowDiamond) return 7;
+        return p.mark != Mark::disc || p.group == "own" ? 6 : 4.5;
+    }
 
     std::string axes() const {
         std::string out;
         for (double t : ticksOf(x_)) {
             out += line(x_.at(t), y_.to, x_.at(t), y_.from, "grid");
-            out += text(x_.at(t), y_.from + 15, "tick", "middle", plain(t));
+            out += text(x_.at(t), y_.from + 15, "tick", "middle", plain(100 * t) + " %");
         }
         for (double t : ticksOf(y_)) {
             out += line(x_.from, y_.at(t), x_.to, y_.at(t), "grid");
             out += text(x_.from - 5, y_.at(t) + 4, "tick", "end", plain(t));
         }
-        out += text((x_.from + x_.to) / 2, plot_.height - 6, "axis", "middle", "time for a picture, ms");
-        out += text(4, 12, "axis", "start", "error (relMSE): less is better");
+        out += text((x_.from + x_.to) / 2, plot_.height - 6, "axis", "middle",
+                    "time for a picture: 100 % is the scene's own settings");
+        out += text(4, 12, "axis", "start", "error: less is better");
         if (y_.shows(plot_.floor)) {
             out += line(x_.from, y_.at(plot_.floor), x_.to, y_.at(plot_.floor), "floor");
             out += text(x_.to, y_.at(plot_.floor) - 3, "tick", "end", kFloorText);
         }
-        if (x_.shows(plot_.halfTime)) {
-            out += line(x_.at(plot_.halfTime), y_.to, x_.at(plot_.halfTime), y_.from, "half");
-            out += text(x_.at(plot_.halfTime) + 3, y_.from - 4, "tick", "start", kHalfText);
+        if (x_.shows(kHalf)) {
+            out += line(x_.at(kHalf), y_.to, x_.at(kHalf), y_.from, "halfway");
+            out += text(x_.at(kHalf) + 3, y_.from - 4, "tick", "start", kHalfText);
         }
         return out;
     }
@@ -157,13 +180,7 @@ private:
         if (!p.pale)
             out += "<path class=\"spread\" d=\"M" + fixed(x_.at(p.timeLower)) + " " + fixed(y) + "H" + fixed(x_.at(p.timeUpper)) +
                    "\"/>";
-        if (p.advised)
-            out += "<path class=\"star\" d=\"" + starPath(x, y, radiusOf(p)) + "\"/>";
-        else if (p.group == "combination" && !p.pale)
-            out += "<path d=\"M" + fixed(x - radiusOf(p)) + " " + fixed(y) + "l4.5-4.5 4.5 4.5-4.5 4.5z\"/>";
-        else
-            out += "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(radiusOf(p)) + "\"/>";
-        return out + "</g>\n";
+        return out + markSvg(p.mark, x, y, radiusOf(p)) + "</g>\n";
     }
 
     Box markOf(const PlotPoint& p) const {
@@ -198,9 +215,9 @@ private:
             add(x_.at(after.time), yOf(before), x_.at(after.time), yOf(after));
         }
         const double floor = y_.at(plot_.floor);
-        const double half = x_.at(plot_.halfTime);
+        const double half = x_.at(kHalf);
         if (y_.shows(plot_.floor)) add(x_.to - lengthOf(kFloorText), floor - kText - 2, x_.to, floor);
-        if (!x_.shows(plot_.halfTime)) return boxes;
+        if (!x_.shows(kHalf)) return boxes;
         add(half, y_.to, half, y_.from);
         add(half, y_.from - kText - 4, half + lengthOf(kHalfText), y_.from);
         return boxes;
@@ -213,7 +230,7 @@ private:
     /// A content that is shorter than its box stays at its mark.
     std::string label(const PlotPoint& p, const Box& box, const std::string& content) const {
         constexpr double kDescent = 2;  // of letters, under their line
-        const std::string cssClass = p.advised || p.group == "own" ? "label important" : "label";
+        const std::string cssClass = p.important ? "label important" : "label";
         const double y = box.y + box.height - kDescent;
         const double left = box.x + kApart / 2;
         const double right = box.x + box.width - kApart / 2;
@@ -232,16 +249,19 @@ DrawnPlot drawPlot(const Plot& plot) {
     return Drawing(plot).draw();
 }
 
-std::string starPath(double x, double y, double radius) {
-    constexpr double kPi = 3.14159265358979;
-    constexpr double kInner = 0.45;
-    std::string path;
-    for (int i = 0; i < 10; ++i) {
-        const double r = i % 2 ? kInner * radius : radius;
-        const double angle = kPi * i / 5;
-        path += (i ? "L" : "M") + fixed(x + r * std::sin(angle)) + " " + fixed(y - r * std::cos(angle));
-    }
-    return path + "z";
+std::string markSvg(Mark mark, double x, double y, double radius) {
+    const auto path = [](const std::string& cssClass, const std::string& data) {
+        return "<path class=\"" + cssClass + "\" d=\"" + data + "\"/>";
+    };
+    const std::string r = fixed(radius);
+    if (mark == Mark::star) return path("solid star", starPath(x, y, radius));
+    if (mark == Mark::hollowDiamond)
+        return path("hollow",
+                    "M" + fixed(x - radius) + " " + fixed(y) + "l" + r + " -" + r + " " + r + " " + r + " -" + r + " " + r + "z");
+    if (mark == Mark::disc) return "<circle class=\"solid\" cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + r + "\"/>";
+    const std::string side = fixed(2 * radius - 1);
+    return path(mark == Mark::square ? "solid" : "hollow",
+                "M" + fixed(x - radius + 0.5) + " " + fixed(y - radius + 0.5) + "h" + side + "v" + side + "h-" + side + "z");
 }
 
 }  // namespace cost

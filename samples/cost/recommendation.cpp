@@ -11,27 +11,13 @@ namespace {
 
 constexpr double kMoreError = 0.05;  // that is accepted, as a share of the error of the scene's own settings
 
-/// How many times as many samples the scene takes by itself as were measured.
-double moreSamples(const Report& report) {
-    return static_cast<double>(report.sceneSamples) / report.samples();
+double errorRatio(const Report& report, size_t measurement) {
+    return report.errorOf(measurement) / std::max(report.errorOf(0), 1e-12);
 }
 
-/// relMSE at the scene's own samples. Whitted's pictures are taken at the same samples, where a setting that misses a bright spark has less noise by
-/// being wrong: what it does at the same samples counts where it is more.
-double expectedError(const Report& report, const Measurement& m) {
-    const Measurement& own = report.measurements.front();
-    if (!report.reference.random)
-        return std::max(m.error.relMse, own.error.relMse + m.sameSamples.relMse - own.sameSamples.relMse);
-    const double systematic = systematicError(m, own.configuration);
-    return systematic + std::max(m.error.relMse - systematic, 0.0) / moreSamples(report);
-}
-
-double errorRatio(const Report& report, const Measurement& m) {
-    return expectedError(report, m) / std::max(expectedError(report, report.measurements.front()), 1e-12);
-}
-
-bool keepsQuality(const Report& report, const Measurement& m) {
-    return errorRatio(report, m) <= 1 + kMoreError && moreWrongPixels(report, m) <= kNoticeablePixels;
+bool keepsQuality(const Report& report, size_t measurement) {
+    return errorRatio(report, measurement) <= 1 + kMoreError &&
+           moreWrongPixels(report, report.measurements[measurement]) <= kNoticeablePixels;
 }
 
 bool savesTime(const Measurement& m) {
@@ -40,7 +26,7 @@ bool savesTime(const Measurement& m) {
 
 BudgetChoice choiceOf(const Report& report, size_t measurement) {
     const Measurement& m = report.measurements[measurement];
-    const double samples = samplesOf(report.levers, m.configuration) * moreSamples(report);
+    const double samples = samplesOf(report.levers, m.configuration) * report.moreSamples();
     return {m.configuration, static_cast<uint32_t>(std::max(std::lround(samples), 1L)), m.ms.median, m.error.relMse};
 }
 
@@ -52,7 +38,7 @@ size_t nearestMiss(const Report& report) {
     for (size_t i = 1; i < report.measurements.size(); ++i) {
         const Measurement& m = report.measurements[i];
         const double wrong = moreWrongPixels(report, m);
-        if (!savesTime(m) || errorRatio(report, m) > 1 + kMoreError || wrong >= least) continue;
+        if (!savesTime(m) || errorRatio(report, i) > 1 + kMoreError || wrong >= least) continue;
         nearest = i;
         least = wrong;
     }
@@ -66,15 +52,14 @@ std::string nearestMissSentence(const Report& report, size_t miss) {
            percent(kNoticeablePixels) + " may.";
 }
 
-std::string errorInWords(double ratio) {
-    if (std::abs(ratio - 1) < 0.005) return "the same error";
-    return percent(std::abs(ratio - 1)) + (ratio < 1 ? " less error" : " more error");
-}
-
 }  // namespace
 
 double moreWrongPixels(const Report& report, const Measurement& m) {
     return m.sameSamples.wrongPixels - report.measurements.front().sameSamples.wrongPixels;
+}
+
+bool savesForNothing(const Report& report, size_t measurement) {
+    return savesTime(report.measurements[measurement]) && keepsQuality(report, measurement);
 }
 
 size_t recommended(const Report& report) {
@@ -82,7 +67,7 @@ size_t recommended(const Report& report) {
     Spread fastest = {1, 1, 1};
     for (size_t i = 1; i < report.measurements.size(); ++i) {
         const Measurement& m = report.measurements[i];
-        if (!savesTime(m) || !keepsQuality(report, m)) continue;
+        if (!savesForNothing(report, i)) continue;
         candidates.push_back(i);
         if (m.slowdown.median < fastest.median) fastest = m.slowdown;
     }
@@ -109,21 +94,19 @@ std::string recommendationSentence(const Report& report) {
         return "Keep the scene's own settings: nothing that was measured surely saves " + percent(kLeastSaving) +
                " of the time and keeps the quality of the picture." + (miss ? nearestMissSentence(report, miss) : "");
     }
-    const Measurement& m = report.measurements[choice];
-    return "Take " + changesInWords(report, choiceOf(report, choice)) + ": " + percent(1 - m.slowdown.median) + " less time (" +
-           number(m.ms.median) + " instead of " + number(report.measurements.front().ms.median) + " ms a picture) and " +
-           errorInWords(errorRatio(report, m)) + ".";
+    return "Take " + changesInWords(report, choiceOf(report, choice)) + ": " +
+           percent(1 - report.measurements[choice].slowdown.median) + " less time, and " +
+           errorChange(report.errorOf(0), report.errorOf(choice), report.floor()) + ".";
 }
 
 std::string recommendationRule(const Report& report) {
-    std::string rule = "The rule: of the " + std::to_string(report.measurements.size()) +
+    std::string rule = "Of the " + std::to_string(report.measurements.size()) +
                        " choices of settings that were measured, the fastest one that saves at least " + percent(kLeastSaving) +
                        " of the time in three quarters of all pairs of repeats, and whose error is at most " +
                        percent(kMoreError) + " larger than that of the scene's own settings";
-    rule += report.reference.random ? ", as expected at the scene's " + std::to_string(report.sceneSamples) + " samples a pixel."
-                                    : ", at the same samples as well, with at most " + percent(kNoticeablePixels) +
-                                          " more of the pixels looking wrong there.";
-    rule += " Of those that are slower than it by less than " + percent(kSameTime) +
+    if (!report.reference.random)
+        rule += ", with at most " + percent(kNoticeablePixels) + " more of the pixels looking wrong at the same samples";
+    rule += ". Of those that are slower than it by less than " + percent(kSameTime) +
             ", or by no more than the repeats spread, the one that changes the fewest settings";
     if (report.confirmed) rule += "; timed once more, since the fastest of many may be so by chance";
     return rule + ". It holds for this scene, this view and this device.";

@@ -1,5 +1,7 @@
 #include "report.hpp"
 
+#include <algorithm>
+
 #include "figures.hpp"
 
 namespace cost {
@@ -11,9 +13,19 @@ std::string Report::nameOf(size_t measurement) const {
         const Configuration& c = measurements[measurement].configuration;
         if (c[i] == own[i]) continue;
         name += (name.empty() ? "" : ", ") + levers[i].settings[c[i]].words;
-        if (levers[i].kind == LeverKind::samples && samplesOf(levers, c) == sceneSamples) name += " (the scene's)";
     }
     return name.empty() ? "the scene's own settings" : name;
+}
+
+const Comparison* Report::comparisonOf(size_t measurement) const {
+    const auto found =
+        std::find_if(comparisons.begin(), comparisons.end(), [&](const Comparison& c) { return c.measurement == measurement; });
+    return found == comparisons.end() ? nullptr : &*found;
+}
+
+double Report::errorOf(size_t measurement) const {
+    const Comparison* compared = comparisonOf(measurement);
+    return compared ? compared->errorThen() : expectedError(levers, measurements, measurements[measurement], moreSamples());
 }
 
 std::string budgetSentence(const Report& report) {
@@ -21,10 +33,11 @@ std::string budgetSentence(const Report& report) {
     if (!report.choice)
         return "Nothing fits " + limit + ": the fastest settings take " +
                number(fastestMs(report.levers, report.measurements, 1)) + " ms a sample.";
-    std::string text = "Within " + limit + " fit " + choiceWords(report.levers, *report.choice) + ": measured " +
-                       number(report.choiceMs) + " ms, error " + number(report.choiceRelMse) +
-                       " (the scene's own settings: " + number(report.measurements.front().ms.median) + " ms, " +
-                       number(report.measurements.front().error.relMse) + ").";
+    std::string text = "Within " + limit + " fit " + choiceWords(report.levers, *report.choice) +
+                       (report.choiceSamples < report.choice->samples ? ": about " : ": measured ") + number(report.choiceMs) +
+                       " ms, error " + number(report.choiceRelMse) +
+                       " (the scene's own settings: " + number(report.measurements.front().ms.median * report.moreSamples()) +
+                       " ms, " + number(report.errorOf(0)) + ").";
     return text + " " + givenUpSentence(report.levers, *report.choice);
 }
 

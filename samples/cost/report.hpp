@@ -37,12 +37,22 @@ struct Report {
     std::vector<Failure> failures;
     double budgetMs = 0;  // 0: none was given
     std::optional<BudgetChoice> choice;
-    double choiceMs = 0;      // of the choice, measured
-    double choiceRelMse = 0;  // likewise
+    double choiceMs = 0;         // of the choice, measured
+    double choiceRelMse = 0;     // likewise
+    uint32_t choiceSamples = 0;  // that were measured of it: fewer than its own where there was no time for all
 
     std::vector<HardCases> hardCases;  // empty: not asked for
 
     uint32_t samples() const { return samplesOf(levers, measurements.front().configuration); }
+    /// How many times as many samples as were measured the scene takes by itself.
+    double moreSamples() const { return static_cast<double>(sceneSamples) / samples(); }
+    /// The error of a measurement at the scene's own samples, as all sentences, tables and plots give it: what differs from the scene's own settings by
+    /// chance alone counts as these.
+    double errorOf(size_t measurement) const;
+    /// What the reference's own error adds to errorOf(): smaller ones are not to be believed.
+    double floor() const { return reference.relMse / moreSamples(); }
+    /// The comparison that a measurement is of, or null.
+    const Comparison* comparisonOf(size_t measurement) const;
     /// What a measurement is called: its difference from the scene's own settings.
     std::string nameOf(size_t measurement) const;
 };

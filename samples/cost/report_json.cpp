@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "action.hpp"
+#include "better_picture.hpp"
 #include "commands.hpp"
 #include "half_time.hpp"
 #include "recommendation.hpp"
@@ -38,6 +40,7 @@ Json measurementJson(const Report& report, size_t i) {
                  {"slowdown", spreadJson(m.slowdown)},
                  {"error", errorsJson(m.error)},
                  {"relmse_spread", spreadJson(m.relMse)},
+                 {"expected_relmse", report.errorOf(i)},
                  {"bias", {{"relmse", m.bias.value}, {"standard_error", m.bias.standardError}}},
                  {"shift", {{"relmse", m.shift.value}, {"standard_error", m.shift.standardError}}},
                  {"pipeline_ms", m.pipelineMs},
@@ -61,17 +64,24 @@ Json leverJson(const Lever& lever) {
 Json comparisonJson(const Report& report, const Comparison& c) {
     const Lever& lever = report.levers[c.lever];
     const char* const changes[] = {"none", "less error", "more error"};
+    const Advice advice = adviceOn(report, c);
     return {{"lever", lever.name},
             {"cheap", lever.settings[c.cheap].name},
             {"accurate", lever.settings[c.accurate].name},
             {"leading", c.leading},
+            {"scene_has_accurate", c.sceneHasAccurate},
+            {"measurement", c.measurement},
             {"slowdown", spreadJson(c.slowdown)},
+            {"error_cheap", c.errorCheap},
+            {"error_accurate", c.errorAccurate},
             {"change", changes[static_cast<size_t>(c.change)]},
             {"error_removed", c.removed},
             {"wrong_pixels_of_cheap", c.wrongPixels},
             {"usefulness", c.usefulness},
             {"verdict", verdict(c)},
-            {"sentence", sentence(lever, c)}};
+            {"action", actionName(advice.action)},
+            {"reason", advice.reason},
+            {"sentence", sentence(lever, c, report.floor())}};
 }
 
 Json recommendationJson(const Report& report) {
@@ -91,7 +101,10 @@ Json choiceJson(const Report& report, const BudgetChoice& choice) {
 
 Json halfTimeJson(const Report& report) {
     const HalfTime half = halfTime(report);
-    Json json = {{"sentence", halfTimeSentence(report)}, {"fits", half.fits}, {"own", choiceJson(report, half.own)}};
+    Json json = {{"sentence", halfTimeSentence(report)},
+                 {"fits", half.fits},
+                 {"measured", half.measurement.has_value()},
+                 {"own", choiceJson(report, half.own)}};
     if (half.choice) json["choice"] = choiceJson(report, *half.choice);
     return json;
 }
@@ -102,7 +115,7 @@ Json budgetJson(const Report& report) {
     json["settings"] = settingsJson(report.levers, report.choice->configuration);
     json["settings"]["samples"] = std::to_string(report.choice->samples);
     json["expected"] = {{"ms", report.choice->ms}, {"relmse", report.choice->relMse}};
-    json["measured"] = {{"ms", report.choiceMs}, {"relmse", report.choiceRelMse}};
+    json["measured"] = {{"ms", report.choiceMs}, {"relmse", report.choiceRelMse}, {"samples", report.choiceSamples}};
     json["given_up"] = givenUp(report.levers, *report.choice);
     return json;
 }
@@ -135,10 +148,13 @@ std::string reportJson(const Report& report) {
     json["comparisons"] = Json::array();
     for (const Comparison& c : report.comparisons) json["comparisons"].push_back(comparisonJson(report, c));
     json["findings"] = Json::array();
-    for (size_t i : findings(report.levers, report.comparisons))
-        json["findings"].push_back(sentence(report.levers[report.comparisons[i].lever], report.comparisons[i]));
+    for (size_t i : findings(report)) {
+        const Comparison& c = report.comparisons[i];
+        json["findings"].push_back(sentence(report.levers[c.lever], c, report.floor()));
+    }
     json["recommendation"] = recommendationJson(report);
     json["half_time"] = halfTimeJson(report);
+    json["better_picture"] = {{"sentence", betterPictureSentence(report)}, {"sampling_share", samplingShare(report)}};
     json["failures"] = Json::array();
     for (const Failure& f : report.failures)
         json["failures"].push_back({{"settings", settingsJson(report.levers, f.configuration)}, {"reason", f.reason}});

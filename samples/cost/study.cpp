@@ -7,6 +7,7 @@
 #include "confirmation.hpp"
 #include "pareto.hpp"
 #include "search.hpp"
+#include "spending.hpp"
 
 namespace cost {
 namespace {
@@ -138,34 +139,35 @@ void confirm(Measurer& measurer, const StudyOptions& options, const Progress& pr
         again, options.repeats, [&] { return options.seconds - progress.seconds(); }, report);
 }
 
-/// Chooses, and measures what was chosen.
-void spendBudget(Scenes& scenes, Measurer& measurer, const StudyOptions& options, Report& report) {
-    report.budgetMs = options.budgetMs;
-    report.choice = chooseWithin(options.budgetMs, report.levers, report.measurements, 1);
-    if (!report.choice) return;
+void spend(Scenes& scenes, Measurer& measurer, const StudyOptions& options, const Progress& progress, Report& report) {
     std::vector<Lever> levers = report.levers;
-    Lever& samples = levers[findLever(levers, LeverKind::samples)];
-    const auto measured = [&](uint32_t count) {
-        samples.settings = {{"", "", static_cast<double>(count)}};
-        samples.initial = samples.best = 0;
+    const size_t samplesLever = findLever(levers, LeverKind::samples);
+    const auto render = [&](const Configuration& configuration, uint32_t samples) {
+        levers[samplesLever].settings = {{"", "", static_cast<double>(samples)}};
+        levers[samplesLever].initial = levers[samplesLever].best = 0;
         scenes.setLevers(levers);
-        return measurer.measure({with(report.choice->configuration, findLever(levers, LeverKind::samples), 0)}, 1, 0).front();
+        return measurer.once(with(configuration, samplesLever, 0));
     };
-    Measurement m = measured(report.choice->samples);
-    while (m.ms.median > options.budgetMs && report.choice->samples > 1) {
-        const double fitting = report.choice->samples * options.budgetMs / m.ms.median;
-        report.choice->samples = std::clamp(static_cast<uint32_t>(fitting), 1u, report.choice->samples - 1);
-        m = measured(report.choice->samples);
-    }
+    spendBudget(
+        render, [&] { return options.seconds - progress.seconds(); }, report);
     scenes.setLevers(report.levers);
-    report.choiceMs = m.ms.median;
-    report.choiceRelMse = m.error.relMse;
+}
+
+/// The samples of a report as the scene takes them: "64 samples" in place of the 4 that were measured.
+void nameSamples(Report& report) {
+    const double more = report.moreSamples();
+    for (Setting& setting : report.levers[findLever(report.levers, LeverKind::samples)].settings) {
+        const long samples = std::max(std::lround(setting.value * more), 1L);
+        setting.words = std::to_string(samples) + (samples == 1 ? " sample" : " samples");
+    }
 }
 
 }  // namespace
 
 void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOptions& options, Progress& progress,
            Report& report) {
+    StudyOptions measuring = options;
+    measuring.seconds -= secondsToSpend(options.budgetMs, options.seconds);
     const size_t bakedLevers = scenes.levers().size();
     report.sceneSamples = facts.scene.samples;
     scenes.setLevers(allLevers(scenes.levers(), facts, cpuDevice, 4));
@@ -173,26 +175,28 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.prepareSeconds = progress.seconds();
     report.pipelines = scenes.count();
     const std::vector<Lever> baked(scenes.levers().begin(), scenes.levers().begin() + static_cast<ptrdiff_t>(bakedLevers));
-    const uint32_t samples = chooseWork(scenes, facts, options, progress, report);
+    const uint32_t samples = chooseWork(scenes, facts, measuring, progress, report);
     scenes.setLevers(allLevers(baked, facts, cpuDevice, samples));
     report.levers = scenes.levers();
 
     Measurer measurer(scenes, report.width, report.height, progress);
     const double start = progress.seconds();
-    const double left = std::max(options.seconds - start, 0.0);
+    report.budgetMs = options.budgetMs;
+    const double left = std::max(measuring.seconds - start, 0.0);
     measurer.makeReference(bestConfiguration(report.levers), left * kReferenceShare, leastOfReference(samples));
     report.measurements =
         measurer.measure(oneAtATime(report.levers), options.repeats, start + left * (kReferenceShare + kSinglesShare));
     report.singles = report.measurements.size();
-    addCombinations(measurer, options, start + left * (1 - kConfirmationShare), progress, report);
+    addCombinations(measurer, measuring, start + left * (1 - kConfirmationShare), progress, report);
     report.reference = measurer.reference();
-    confirm(measurer, options, progress, report);
+    confirm(measurer, measuring, progress, report);
 
-    report.front = surelyOnFront(report.measurements);
+    nameSamples(report);
     const std::vector<Measurement> singles(report.measurements.begin(),
                                            report.measurements.begin() + static_cast<ptrdiff_t>(report.singles));
-    report.comparisons = compareLevers(report.levers, singles, static_cast<double>(report.sceneSamples) / samples);
-    if (options.budgetMs > 0) spendBudget(scenes, measurer, options, report);
+    report.comparisons = compareLevers(report.levers, singles, report.moreSamples());
+    report.front = surelyOnFront(report);
+    if (options.budgetMs > 0) spend(scenes, measurer, options, progress, report);
     report.failures = measurer.failures();
     report.seconds = progress.seconds();
 }

@@ -1,0 +1,66 @@
+#include "better_picture.hpp"
+
+#include <algorithm>
+
+#include "action.hpp"
+#include "figures.hpp"
+
+namespace cost {
+namespace {
+
+std::string timeInWords(const Comparison& c) {
+    const double time = c.relativeTime.median;
+    if (!measurable(c.relativeTime)) return "no more time";
+    if (time >= 2) return number(time) + " times the time";
+    return percent(std::abs(time - 1)) + (time < 1 ? " less time" : " more time");
+}
+
+/// With its time and what it does to the error.
+std::string effectInWords(const Report& report, const Comparison& c) {
+    return report.nameOf(c.measurement) + ": " + timeInWords(c) + ", and " +
+           errorChange(report.errorOf(0), c.errorThen(), report.floor());
+}
+
+/// The most useful setting that is worth its time, or null.
+const Comparison* bestUpgrade(const Report& report) {
+    for (const Comparison& c : report.comparisons)
+        if (adviceOn(report, c).action == Action::upgrade) return &c;
+    return nullptr;
+}
+
+/// The least number of samples above the scene's own that was measured, or null.
+const Comparison* moreSamples(const Report& report) {
+    const Comparison* least = nullptr;
+    for (const Comparison& c : report.comparisons)
+        if (report.levers[c.lever].kind == LeverKind::samples && !c.sceneHasAccurate && (!least || c.accurate < least->accurate))
+            least = &c;
+    return least;
+}
+
+std::string shareSentence(const Report& report) {
+    const double share = samplingShare(report);
+    const std::string samples = samplesWords(report.sceneSamples);
+    return (share > 0.99 ? "Nearly all" : percent(share)) + " of the error (" + errorFigure(report.errorOf(0), report.floor()) +
+           ") is " + (report.reference.random ? "the noise of " : "jagged edges and missed detail of ") + samples;
+}
+
+}  // namespace
+
+double samplingShare(const Report& report) {
+    const Measurement& own = report.measurements.front();
+    const double error = report.errorOf(0);
+    if (error <= 0) return 0;
+    return std::max(error - systematicError(own, own.configuration), 0.0) / error;
+}
+
+std::string betterPictureSentence(const Report& report) {
+    const Comparison* upgrade = bestUpgrade(report);
+    const Comparison* samples = moreSamples(report);
+    std::string text = upgrade ? "Take " + effectInWords(report, *upgrade) + ". " : "";
+    text += shareSentence(report);
+    if (samplingShare(report) < 0.5) return text + ": more samples reduce no more than that.";
+    text += ", which only more samples reduce";
+    return text + (samples ? ". Take " + effectInWords(report, *samples) + "." : ".");
+}
+
+}  // namespace cost
