@@ -519,6 +519,17 @@ TEST_CASE("a budget buys the least error that fits, and says what it gives up") 
     CHECK(cost::fastestMs(report.levers, report.measurements, 2) == doctest::Approx(2.5));
 }
 
+TEST_CASE("what more or fewer samples give is told by the scene's own number of them where that was measured") {
+    cost::Report report = sampleReport();
+    const auto error = [&] { return cost::chooseWithin(20.5, report.levers, report.measurements, 1)->relMse; };
+    const double before = error();
+    report.measurements[4].error.relMse =
+        0.0005;  // twice the samples, a twentieth of the error: sparks that outnumber four samples
+    report.measurements[4].bias.standardError = report.measurements[0].bias.standardError = 1e-9;  // random noise
+    CHECK(error() == doctest::Approx(before));
+    CHECK(error() == doctest::Approx(0.01 * 4 / 8));
+}
+
 TEST_CASE(
     "of budgets that buy about the same error, the one with the fewest changes is taken, and no time that is less by chance") {
     cost::Report report = sampleReport();

@@ -43,6 +43,15 @@ bool samePicture(const Lever& lever, size_t setting) {
     return lever.kind == LeverKind::integrator && lever.settings[setting].value != MINIRT_INTEGRATOR_WHITTED;
 }
 
+/// Whether the settings of `m` were measured with the scene's own samples too. These tell what other samples give: few ones have more noise, and many less,
+/// than their number says, where a few bright sparks make most of it.
+bool isMeasuredAtOwnSamples(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements,
+                            const Measurement& m) {
+    const size_t samples = findLever(levers, LeverKind::samples);
+    const Configuration wanted = with(m.configuration, samples, levers[samples].initial);
+    return std::any_of(measurements.begin(), measurements.end(), [&](const Measurement& o) { return o.configuration == wanted; });
+}
+
 /// Levers that differ from the scene's own settings, but for the samples, of which a budget decides.
 size_t changes(const std::vector<Lever>& levers, const BudgetChoice& choice) {
     size_t count = 0;
@@ -82,7 +91,9 @@ std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& le
     constexpr double kSameError = 0.02;
     std::vector<BudgetChoice> choices;
     double least = std::numeric_limits<double>::infinity();
+    const size_t lever = findLever(levers, LeverKind::samples);
     for (const Measurement& m : measurements) {
+        if (m.configuration[lever] != levers[lever].initial && isMeasuredAtOwnSamples(levers, measurements, m)) continue;
         const double perSample = msPerSample(levers, m, measurements.front()) * pixelRatio;
         const double samples = std::min(std::floor(ms / perSample + kRounding), kMostSamples);
         if (samples < 1) continue;
