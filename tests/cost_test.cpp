@@ -407,11 +407,20 @@ TEST_CASE("how much of the error only more samples reduce") {
     CHECK(cost::betterPictureSentence(report) ==
           "Take exact Fresnel: 2 % more time, and the error falls from 0.0500 to 0.0100. 20 % of the error (0.0500) is jagged "
           "edges and missed detail of 4 samples a pixel: more samples reduce no more than that.");
+    REQUIRE(cost::betterPicture(report));
+    CHECK(cost::betterPicture(report)->configuration[0] == 2);
+    CHECK(cost::betterPicture(report)->samples == 4);
     report = sampleReport();
     report.reference.random = true;
     CHECK(cost::betterPictureSentence(report) ==
-          "Nearly all of the error (0.0100) is the noise of 4 samples a pixel, which only more samples reduce. Take 8 samples: "
+          "Nearly all of the error (0.0100) is the noise of 4 samples a pixel, which only more samples reduce. With all else as "
+          "it is, take 8 samples: "
           "2.00 times the time, and the error falls from 0.0100 to 0.00500.");
+    REQUIRE(cost::betterPicture(report));
+    CHECK(cost::betterPicture(report)->samples == 8);
+    CHECK(contains(cost::page(report), "For a better picture"));
+    CHECK(cost::commandsFor(report, *cost::betterPicture(report)).back() ==
+          "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 8");
 }
 
 TEST_CASE("a cheap setting that misses bright sparks has less noise, and is wrong all the same") {
@@ -596,7 +605,7 @@ TEST_CASE("where not even one sample fits half the time, the fastest that surely
     CHECK(cost::halfTimeSentence(report) ==
           "Nothing that was measured halves the time. What surely saves the most is Schlick's Fresnel: 19 % less time, and the "
           "error "
-          "rises from 0.0100 to 0.0200; 12 % of the pixels visibly change, more than a recommendation may.");
+          "rises from 0.0100 to 0.0200; 12 % of the pixels visibly change, over the limit of 0.2 % for a recommendation.");
     CHECK_FALSE(cost::halfTime(report).fits);
     for (cost::Measurement& m : report.measurements) m.slowdown.upper = 0.96;
     CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or surely saves 5 % of it.");
@@ -629,9 +638,9 @@ TEST_CASE("where a few pixels alone speak against a setting it is named, with wh
     cost::Report report = sampleReport();
     report.measurements.push_back(measured({1, 1, 1}, 0.6, 0.0104, 0.0155));
     CHECK(cost::recommended(report) == 0);
-    CHECK(contains(
-        cost::recommendationSentence(report),
-        "The nearest to it is Schlick's Fresnel: 40 % less time, but 0.55 % of the pixels visibly change, where 0.2 % may."));
+    CHECK(contains(cost::recommendationSentence(report),
+                   "The closest that just fails is Schlick's Fresnel: 40 % less time, but 0.55 % of the pixels visibly change; "
+                   "the limit is 0.2 %."));
     report.measurements.back().error.relMse = 0.02;
     CHECK_FALSE(contains(cost::recommendationSentence(report), "nearest"));
     report.measurements.back() = measured({1, 1, 1}, 0.6, 0.0104, 0.05);  // far more than a few

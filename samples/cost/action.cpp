@@ -52,8 +52,8 @@ Advice tradeAdvice(const Lever& lever, const Comparison& c, const Effect& effect
     const bool pays = verdict(c) == "keep" && !isSamplesOrIntegrator(lever);
     if (effect.better)
         return pays ? Advice{Action::upgrade, "gains more than it costs"} : Advice{Action::choose, "better, but slower"};
-    const bool savesLittle = c.relativeTime.median > 1 - kLeastSaving;
-    return pays || savesLittle ? Advice{Action::keep, "loses more than it saves"} : Advice{Action::choose, "faster, but worse"};
+    if (c.relativeTime.median > 1 - kLeastSaving) return {Action::keep, "worse, and hardly faster"};
+    return pays ? Advice{Action::keep, "loses more than it saves"} : Advice{Action::choose, "faster, but worse"};
 }
 
 /// Numbers of the comparisons that lead their levers; of levers that everybody knows last.

@@ -1,12 +1,15 @@
 #include "better_picture.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "action.hpp"
 #include "figures.hpp"
 
 namespace cost {
 namespace {
+
+constexpr double kMostOfTheError = 0.5;  // share from which on what reduces it is worth saying
 
 std::string timeInWords(const Comparison& c) {
     const double time = c.relativeTime.median;
@@ -53,14 +56,27 @@ double samplingShare(const Report& report) {
     return std::max(error - systematicError(own, own.configuration), 0.0) / error;
 }
 
+std::optional<BudgetChoice> betterPicture(const Report& report) {
+    const Comparison* upgrade = bestUpgrade(report);
+    const Comparison* samples = samplingShare(report) < kMostOfTheError ? nullptr : moreSamples(report);
+    if (!upgrade && !samples) return std::nullopt;
+    BudgetChoice choice = {report.measurements.front().configuration, report.sceneSamples, 0, 0};
+    if (upgrade) choice.configuration[upgrade->lever] = report.measurements[upgrade->measurement].configuration[upgrade->lever];
+    if (samples) {
+        const double factor = report.levers[samples->lever].settings[samples->accurate].value;
+        choice.samples = static_cast<uint32_t>(std::lround(factor * report.moreSamples()));
+    }
+    return choice;
+}
+
 std::string betterPictureSentence(const Report& report) {
     const Comparison* upgrade = bestUpgrade(report);
     const Comparison* samples = moreSamples(report);
     std::string text = upgrade ? "Take " + effectInWords(report, *upgrade) + ". " : "";
     text += shareSentence(report);
-    if (samplingShare(report) < 0.5) return text + ": more samples reduce no more than that.";
+    if (samplingShare(report) < kMostOfTheError) return text + ": more samples reduce no more than that.";
     text += ", which only more samples reduce";
-    return text + (samples ? ". Take " + effectInWords(report, *samples) + "." : ".");
+    return text + (samples ? ". With all else as it is, take " + effectInWords(report, *samples) + "." : ".");
 }
 
 }  // namespace cost

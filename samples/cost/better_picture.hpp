@@ -7,6 +7,9 @@ namespace cost {
 /// Share of the error of the scene's own settings that more samples reduce: noise of path tracers, of Whitted's tracer what too few samples miss.
 double samplingShare(const Report& report);
 
+/// The settings that betterPictureSentence() names, together; nothing where it names none.
+std::optional<BudgetChoice> betterPicture(const Report& report);
+
 /// "Take exact Fresnel: 2 % more time, and the error falls from 0.0500 to 0.0100. 90 % of the error is noise of 4 samples a pixel; ..."
 std::string betterPictureSentence(const Report& report);
 

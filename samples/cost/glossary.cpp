@@ -68,7 +68,7 @@ const std::vector<Term> kTerms = {
      {"look wrong", "looks wrong", "visibly change"},
      "A pixel that looks wrong is so far from the reference's that a screen shows it: by more than 2 of 255 steps, noise "
      "included. Those that visibly change "
-     "by a setting alone are counted without the noise: pictures with it and without it have the same."},
+     "by a setting alone are counted without the noise: the pictures with it and without it have the same."},
     {"moeller",
      "Möller–Trumbore",
      {"Möller–Trumbore"},

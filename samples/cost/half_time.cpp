@@ -99,7 +99,8 @@ std::string halfTimeSentence(const Report& report) {
     text += changesInWords(report, *half.choice) + (half.measurement ? ": " : ": about ") + percent(1 - half.relativeTime()) +
             " less time, and " + errorChange(half.own.relMse, half.choice->relMse, report.floor());
     if (half.wrongPixels > kNoticeablePixels)
-        text += "; " + percent(half.wrongPixels) + " of the pixels visibly change, more than a recommendation may";
+        text += "; " + percent(half.wrongPixels) + " of the pixels visibly change, over the limit of " +
+                percent(kNoticeablePixels) + " for a recommendation";
     return text + ".";
 }
 

@@ -48,7 +48,10 @@ std::string definitions(const Report& report) {
         "<b>Error</b>: how far a picture is from the reference, which has every setting at its most accurate and many samples; 0 "
         "is no difference. ";
     if (!report.reference.random)
-        text += "<b>Visibly change</b>: by more than " + std::to_string(kUnseenSteps) + " of a screen's 255 steps. ";
+        text +=
+            "That of another setting is the scene's own and what the setting adds by itself. <b>Visibly change</b>: by more "
+            "than " +
+            std::to_string(kUnseenSteps) + " of a screen's 255 steps. ";
     return element("p", "class=\"soft\"", text + "Underlined <a href=\"#words\">words</a> are explained at the end.");
 }
 
@@ -60,7 +63,7 @@ std::string typed(const Report& report, const std::string& heading, const Budget
     const std::string keys = sceneKeys(report, choice);
     const std::string beside = optionsBesideKeys(report, choice);
     if (keys.empty()) return text;
-    text += element("p", "", "or write into the scene file, beside what its <code>render</code> section holds already,");
+    text += element("p", "", "or merge into the <code>render</code> section of the scene file,");
     text += element("pre", "", escaped(keys));
     if (!beside.empty()) text += element("p", "", "and give minirt-render <code>" + escaped(beside.substr(1)) + "</code>.");
     return text;
@@ -71,6 +74,7 @@ std::string howToSection(const Report& report) {
     std::string text = typed(report, recommended(report) ? "For the same picture in less time" : "With the scene's own settings",
                              recommendedChoice(report));
     if (half.isShown()) text += typed(report, half.fits ? "For half the time" : "For the fastest", *half.choice);
+    if (const std::optional<BudgetChoice> better = betterPicture(report)) text += typed(report, "For a better picture", *better);
     return element("h2", "", "What to type") + element("div", "class=\"card howto\"", text);
 }
 
@@ -89,7 +93,7 @@ std::string head(const Report& report) {
     std::string about = std::string(report.device.name) + ", " + std::to_string(report.width) + " × " +
                         std::to_string(report.height) + " pixels, " + samplesWords(report.sceneSamples);
     if (report.samples() < report.sceneSamples)
-        about += " (expected, from measurements with " + std::to_string(report.samples()) + ")";
+        about += " (errors estimated from pictures with " + std::to_string(report.samples()) + ")";
     return element("h1", "", "What accuracy costs: " + escaped(report.scene)) +
            element("p", "class=\"soft\"", escaped(about + ", " + report.date)) + unsteadyWarning(report) + answers(report) +
            findingsList(report) + definitions(report);

@@ -68,7 +68,11 @@ std::string galleryKey(const Report& report) {
     std::string text =
         "Right of each picture: how far its pixels are from the reference, in steps of a screen's 255. Black is too little to "
         "see.";
-    if (!report.reference.random) text += " The reference has the same samples here, so that only what the setting does shows.";
+    if (!report.reference.random)
+        text +=
+            " The reference has the same samples here, so that only what the setting does shows; for other numbers of samples it "
+            "is "
+            "the one above.";
     return element("div", "class=\"key\"", element("p", "class=\"soft\"", text) + scale());
 }
 

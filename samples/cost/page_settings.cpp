@@ -147,6 +147,7 @@ std::string settingsKey(const Report& report) {
         "<b>Time</b>: compared with the scene's own settings; beneath it, the middle half of all repeats. "
         "<b>Error</b>: at the scene's own " +
         samplesWords(report.sceneSamples) + ".";
+    if (!report.reference.random) text += " <b>–</b>: not counted, since other samples change every edge.";
     bool marked = false;
     for (size_t i = 0; i < report.singles; ++i) marked = marked || report.errorOf(i) <= report.floor();
     if (marked)

@@ -47,9 +47,9 @@ size_t nearestMiss(const Report& report) {
 
 std::string nearestMissSentence(const Report& report, size_t miss) {
     const Measurement& m = report.measurements[miss];
-    return " The nearest to it is " + changesInWords(report, choiceOf(report, miss)) + ": " + percent(1 - m.slowdown.median) +
-           " less time, but " + percent(moreWrongPixels(report, m)) + " of the pixels visibly change, where " +
-           percent(kNoticeablePixels) + " may.";
+    return " The closest that just fails is " + changesInWords(report, choiceOf(report, miss)) + ": " +
+           percent(1 - m.slowdown.median) + " less time, but " + percent(moreWrongPixels(report, m)) +
+           " of the pixels visibly change; the limit is " + percent(kNoticeablePixels) + ".";
 }
 
 }  // namespace
