@@ -105,7 +105,7 @@ cost::Report sampleReport() {
     report.reference.configuration = {2, 1, 2};
     report.reference.mean = constantPicture(0.3f);
     report.reference.relMse = 1e-4;
-    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    report.compareSingles();
     report.front = cost::surelyOnFront(report);
     return report;
 }
@@ -114,7 +114,7 @@ cost::Report sampleReport() {
 cost::Report manySamplesReport() {
     cost::Report report = sampleReport();
     report.sceneSamples = 64;
-    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 16);
+    report.compareSingles();
     report.front = cost::surelyOnFront(report);
     return report;
 }
@@ -391,7 +391,7 @@ TEST_CASE("settings that save as much are switched to only where they are what i
     cost::Report report = sampleReport();
     report.measurements[1] = measured({0, 1, 1}, 0.6, 0.01, 0.01);
     report.measurements[2] = measured({1, 1, 1}, 0.8, 0.01, 0.01);
-    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    report.compareSingles();
     REQUIRE(cost::recommended(report) == 1);
     CHECK(cost::adviceOn(report, *report.comparisonOf(1)).action == cost::Action::switchTo);
     CHECK(cost::adviceOn(report, *report.comparisonOf(2)).action == cost::Action::couldSwitch);
@@ -413,7 +413,7 @@ TEST_CASE("how much of the error only more samples reduce") {
     report = sampleReport();
     report.reference.random = true;
     CHECK(cost::betterPictureSentence(report) ==
-          "Nearly all of the error (0.0100) is the noise of 4 samples a pixel, which only more samples reduce. With all else as "
+          "Nearly all of the error (0.0100) is the noise of 4 samples a pixel, which more samples reduce. With all else as "
           "it is, take 8 samples: "
           "2.00 times the time, and the error falls from 0.0100 to 0.00500.");
     REQUIRE(cost::betterPicture(report));
@@ -421,6 +421,33 @@ TEST_CASE("how much of the error only more samples reduce") {
     CHECK(contains(cost::page(report), "For a better picture"));
     CHECK(cost::commandsFor(report, *cost::betterPicture(report)).back() ==
           "minirt-render 'glass & <ice>.mrt' -o 'glass & <ice>.png' --spp 8");
+}
+
+TEST_CASE("more samples are no better picture where the error was seen to rise with them") {
+    cost::Report report = sampleReport();
+    report.measurements[4] = measured({2, 1, 2}, 2, 0.012, 0.01);
+    report.compareSingles();
+    CHECK_FALSE(cost::betterPicture(report));
+    CHECK_FALSE(contains(cost::betterPictureSentence(report), "take 8 samples"));
+}
+
+TEST_CASE("of upgrades the one that gains the most is named") {
+    cost::Report report = twoSettings(0, 1, 1.05, 0.05, 0.04);
+    report.measurements.push_back(measured({2, 1, 1}, 1.1, 0.01, 0));
+    report.singles = 3;
+    report.compareSingles();
+    CHECK(contains(cost::betterPictureSentence(report), "Take exact Fresnel: "));
+}
+
+TEST_CASE("what is recommended is not said once more for half the time") {
+    cost::Report report = manySamplesReport();
+    report.measurements[1] = measured({0, 1, 1}, 0.52, 0.01, 0.01);
+    report.compareSingles();
+    REQUIRE(cost::recommended(report) == 1);
+    const cost::HalfTime half = cost::halfTime(report);
+    CHECK(half.measurement == 1);  // 61 samples fit half the time: about as many as were measured
+    CHECK_FALSE(half.isShown());
+    CHECK(cost::halfTimeSentence(report) == "The same: it nearly halves the time.");
 }
 
 TEST_CASE("a cheap setting that misses bright sparks has less noise, and is wrong all the same") {
@@ -517,12 +544,13 @@ TEST_CASE("a budget buys the least error that fits, and says what it gives up") 
     CHECK(rich->samples == 32);
     CHECK(rich->configuration[0] == 2);
     CHECK(rich->ms <= 80.5);
-    CHECK(cost::givenUp(report.levers, *rich).empty());
+    CHECK(cost::givenUp(report.levers, *rich, 4).empty());
+    CHECK(cost::givenUpSentence(report.levers, *rich, 64) == "Given up: 32 samples a pixel instead of 64.");
     const auto poor = cost::chooseWithin(1.3, report.levers, report.measurements, 1);
     REQUIRE(poor);
     CHECK(poor->configuration[0] == 0);
     CHECK(poor->ms <= 1.3);
-    CHECK(cost::givenUpSentence(report.levers, *poor) ==
+    CHECK(cost::givenUpSentence(report.levers, *poor, 4) ==
           "Given up: no Fresnel reflection instead of exact Fresnel, 1 sample a pixel instead of 4.");
     CHECK_FALSE(cost::chooseWithin(1.2, report.levers, report.measurements, 1));
     CHECK(cost::fastestMs(report.levers, report.measurements, 2) == doctest::Approx(2.5));
@@ -825,7 +853,7 @@ TEST_CASE("base64 is that of RFC 4648") {
 
 TEST_CASE("figures in a sentence are those of its row in the table, of the plot and of the JSON") {
     cost::Report report = sampleReport();
-    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    report.compareSingles();
     const std::string html = cost::page(report);
     const auto json = nlohmann::json::parse(cost::reportJson(report));
     const auto rowOf = [&](const std::string& from) {
@@ -1007,7 +1035,7 @@ TEST_CASE("what is recommended has a star, and what is like the scene's own sett
     CHECK(contains(html, "</svg>the scene's own settings"));
     CHECK(contains(html, ">6: Schlick's Fresnel</text>"));
     report.measurements[2] = measured({1, 1, 1}, 1.01, 0.01, 0.01);
-    report.comparisons = cost::compareLevers(report.levers, {report.measurements.begin(), report.measurements.begin() + 5}, 1);
+    report.compareSingles();
     html = cost::page(report);
     CHECK(count(html, "<g class=\"lever pale\">") == 2);
     CHECK_FALSE(contains(html, ">2: Schlick's Fresnel</text>"));

@@ -42,9 +42,10 @@ void addOptions(CLI::App& app, Options& o) {
         "Examples:\n  minirt-bench\n  minirt-bench --scenes meshes --json bench.json\n  minirt-bench --frames still_life.json");
     app.add_option("--scenes", o.scenes, "Folder of OBJ files to trace (default: knots, see below)");
     app.add_option("--subdivide", o.subdivisions,
-                   "Trace each of these meshes with its triangles cut into four so many times, for each number given")
+                   "Trace each mesh of --scenes with its triangles cut into four so many times, for each number given")
         ->delimiter(',')
         ->check(CLI::Range(0u, 6u))
+        ->needs("--scenes")
         ->capture_default_str();
     app.add_option("--knots", o.knots, "Without --scenes: triangles of each knot")->delimiter(',')->capture_default_str();
     app.add_option("--frames", o.frames,

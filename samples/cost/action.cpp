@@ -86,7 +86,8 @@ Advice adviceOn(const Report& report, const Comparison& c) {
     if (effect.mixed)
         return {Action::choose, effect.better ? "fewer wrong pixels, but more error" : "less error, but more wrong pixels"};
     const bool little = std::abs(c.removed) < kLeastSaving && c.wrongPixels <= kNoticeablePixels;
-    if (effect.better && !effect.slower && little) return {Action::hardlyMatters, "only a little better"};
+    if (effect.better && little && !isSamplesOrIntegrator(report.levers[c.lever]))
+        return {Action::hardlyMatters, effect.slower ? "slower, and only a little better" : "only a little better"};
     if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
     if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
     return tradeAdvice(report.levers[c.lever], c, effect);

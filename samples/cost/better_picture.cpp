@@ -24,18 +24,25 @@ std::string effectInWords(const Report& report, const Comparison& c) {
            errorChange(report.errorOf(0), c.errorThen(), report.floor());
 }
 
-/// The most useful setting that is worth its time, or null.
-const Comparison* bestUpgrade(const Report& report) {
-    for (const Comparison& c : report.comparisons)
-        if (adviceOn(report, c).action == Action::upgrade) return &c;
-    return nullptr;
+/// How much more a picture gets out of its time by what was tried, as Comparison::usefulness.
+double gain(const Comparison& c) {
+    return c.sceneHasAccurate ? -c.usefulness : c.usefulness;
 }
 
-/// The least number of samples above the scene's own that was measured, or null.
+/// The most useful setting that is worth its time, or null.
+const Comparison* bestUpgrade(const Report& report) {
+    const Comparison* best = nullptr;
+    for (const Comparison& c : report.comparisons)
+        if (adviceOn(report, c).action == Action::upgrade && (!best || gain(c) > gain(*best))) best = &c;
+    return best;
+}
+
+/// The least number of samples above the scene's own by which the error was seen to fall, or null.
 const Comparison* moreSamples(const Report& report) {
     const Comparison* least = nullptr;
     for (const Comparison& c : report.comparisons)
-        if (report.levers[c.lever].kind == LeverKind::samples && !c.sceneHasAccurate && (!least || c.accurate < least->accurate))
+        if (report.levers[c.lever].kind == LeverKind::samples && !c.sceneHasAccurate && c.change == ErrorChange::less &&
+            (!least || c.accurate < least->accurate))
             least = &c;
     return least;
 }
@@ -75,7 +82,7 @@ std::string betterPictureSentence(const Report& report) {
     std::string text = upgrade ? "Take " + effectInWords(report, *upgrade) + ". " : "";
     text += shareSentence(report);
     if (samplingShare(report) < kMostOfTheError) return text + ": more samples reduce no more than that.";
-    text += ", which only more samples reduce";
+    text += ", which more samples reduce";
     return text + (samples ? ". With all else as it is, take " + effectInWords(report, *samples) + "." : ".");
 }
 

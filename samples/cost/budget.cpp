@@ -128,12 +128,13 @@ std::string choiceWords(const std::vector<Lever>& levers, const BudgetChoice& ch
     return text;
 }
 
-std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetChoice& choice) {
+std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetChoice& choice, uint32_t ownSamples) {
     std::vector<std::string> lost;
     for (size_t i = 0; i < levers.size(); ++i) {
         const Setting& own = levers[i].settings[levers[i].initial];
         if (levers[i].kind == LeverKind::samples) {
-            if (choice.samples < own.value) lost.push_back(samplesWords(choice.samples) + " instead of " + own.name);
+            if (choice.samples < ownSamples)
+                lost.push_back(samplesWords(choice.samples) + " instead of " + std::to_string(ownSamples));
         } else if (choice.configuration[i] < levers[i].initial && !samePicture(levers[i], choice.configuration[i])) {
             lost.push_back(levers[i].settings[choice.configuration[i]].words + " instead of " + own.words);
         }
@@ -141,8 +142,8 @@ std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetC
     return lost;
 }
 
-std::string givenUpSentence(const std::vector<Lever>& levers, const BudgetChoice& choice) {
-    const std::vector<std::string> lost = givenUp(levers, choice);
+std::string givenUpSentence(const std::vector<Lever>& levers, const BudgetChoice& choice, uint32_t ownSamples) {
+    const std::vector<std::string> lost = givenUp(levers, choice, ownSamples);
     if (lost.empty()) return "Nothing is given up.";
     std::string text = "Given up: ";
     for (size_t i = 0; i < lost.size(); ++i) text += (i ? ", " : "") + lost[i];

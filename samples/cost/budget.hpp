@@ -37,10 +37,10 @@ std::string samplesWords(uint32_t samples);
 /// "12 samples a pixel, 8 bounces": the samples, and what differs from the scene's own settings.
 std::string choiceWords(const std::vector<Lever>& levers, const BudgetChoice& choice);
 
-/// What a choice gives up: "8 bounces instead of 16" for each lever under its own setting; the samples likewise. Empty: nothing.
-std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetChoice& choice);
+/// What a choice gives up: "8 bounces instead of 16" for each lever under its own setting; the samples under `ownSamples`, the scene's, likewise. Empty: nothing.
+std::vector<std::string> givenUp(const std::vector<Lever>& levers, const BudgetChoice& choice, uint32_t ownSamples);
 
 /// The same in a sentence.
-std::string givenUpSentence(const std::vector<Lever>& levers, const BudgetChoice& choice);
+std::string givenUpSentence(const std::vector<Lever>& levers, const BudgetChoice& choice, uint32_t ownSamples);
 
 }  // namespace cost

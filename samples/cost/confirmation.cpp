@@ -26,6 +26,7 @@ void confirmRecommendation(const MeasureAgain& measureAgain, uint32_t rounds, co
         if (!again) return;
         report.measurements[i].ms = again->ms;
         report.measurements[i].slowdown = again->slowdown;
+        report.compareSingles();
     }
     report.confirmed = recommended(report) != 0;
 }

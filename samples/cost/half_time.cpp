@@ -74,6 +74,13 @@ void takeMeasured(const Report& report, HalfTime& half) {
                    report.errorOf(*half.measurement)};
 }
 
+/// Where what is recommended is what saves the most, too.
+std::string advisedSentence(const Report& report, const HalfTime& half) {
+    if (report.measurements[recommended(report)].slowdown.median <= 0.5) return "The same: it halves the time already.";
+    return half.fits ? "The same: it nearly halves the time."
+                     : "Nothing that was measured halves the time; the same saves the most.";
+}
+
 }  // namespace
 
 HalfTime halfTime(const Report& report) {
@@ -88,13 +95,14 @@ HalfTime halfTime(const Report& report) {
     if (!half.choice) return half;
     half.wrongPixels = wrongByLevers(report, half.choice->configuration);
     takeMeasured(report, half);
+    half.advised = half.advised || (half.measurement && *half.measurement > 0 && *half.measurement == recommended(report));
     return half;
 }
 
 std::string halfTimeSentence(const Report& report) {
     const HalfTime half = halfTime(report);
     if (!half.choice) return "Nothing that was measured halves the time, or surely saves " + percent(kLeastSaving) + " of it.";
-    if (half.advised) return "The same: it halves the time already.";
+    if (half.advised) return advisedSentence(report, half);
     std::string text = half.fits ? "Take " : "Nothing that was measured halves the time. What surely saves the most is ";
     text += changesInWords(report, *half.choice) + (half.measurement ? ": " : ": about ") + percent(1 - half.relativeTime()) +
             " less time, and " + errorChange(half.own.relMse, half.choice->relMse, report.floor());

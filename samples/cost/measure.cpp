@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -75,7 +76,14 @@ Picture Measurer::render(const Configuration& configuration, uint32_t seed, uint
     const LoadedScene& loaded = scenes_.load(configuration);
     loaded.device->require(minirt_render(loaded.scene, &desc, picture.rgba.data()), "");
     ms = stats.gpu_ms;
+    lastRender_ = progress_.seconds();
     return picture;
+}
+
+void Measurer::wake(const Configuration& configuration) {
+    constexpr double kAwakeSeconds = 0.2;
+    if (scenes_.onCpu() || progress_.seconds() - lastRender_ < kAwakeSeconds) return;
+    runFor(kWakeMs, [&] { return warmUp(configuration, 1); });
 }
 
 double Measurer::warmUp(const Configuration& configuration, int times) {
@@ -160,6 +168,7 @@ Measurement Measurer::evaluate(const Tally& tally, const Tally& own, const Confi
     m.picture = meanOf(even, odd);
     if (reference_.random) {
         const auto [ownEven, ownOdd] = own.halves();
+        m.bias.standardError = std::numeric_limits<double>::infinity();  // one picture tells nothing of it
         if (pictures > 1) {
             m.bias = squaredBias(even, odd, reference_.firstHalf, reference_.secondHalf, reference_.mean);
             m.shift = squaredBias(even, odd, ownEven, ownOdd, reference_.mean);
@@ -192,7 +201,7 @@ std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& con
     if (running.empty() || running.front() != configurations.front())
         throw std::runtime_error("the scene's own settings cannot be rendered: " + failures_.front().reason);
     if (!reference_.random) takeAccuratePictures(running);
-    if (!scenes_.onCpu()) runFor(kWakeMs, [&] { return warmUp(running.front(), 1); });
+    wake(running.front());
     std::vector<Tally> tallies(running.size());
     std::vector<std::vector<Timing>> timings(running.size());
     uint32_t round = 0;

@@ -60,6 +60,9 @@ public:
     Measurer(Scenes& scenes, uint32_t width, uint32_t height, Progress& progress)
         : scenes_(scenes), width_(width), height_(height), progress_(progress) {}
 
+    /// Keeps a GPU busy for a while that has not rendered right before: it is slow at first.
+    void wake(const Configuration& configuration);
+
     /// Milliseconds of the last of `times` pictures with one sample; 0 and a reason in failures() where it cannot be rendered. The first one teaches the
     /// runtime how much fits a dispatch.
     double warmUp(const Configuration& configuration, int times);
@@ -89,6 +92,7 @@ private:
     Scenes& scenes_;
     uint32_t width_, height_;
     Progress& progress_;
+    double lastRender_ = -1e9;  // by the clock of the progress
     Reference reference_;
     std::vector<Failure> failures_;
 };

@@ -13,9 +13,8 @@ std::string ruleText(const Report& report) {
                    "<b>What to do</b>: <i>switch</i> is recommended, as good and faster; <i>could switch</i> is as good by "
                    "itself; <i>keep</i> what the "
                    "scene has, <i>upgrade</i> to a better picture: where the error changes by a larger factor than the time; "
-                   "<i>not needed</i>: slower, "
-                   "and no better; "
-                   "<i>your choice</i>: where it does not, and of samples always; <i>hardly matters</i>: no "
+                   "<i>not needed</i>: no better, and slower or worse; "
+                   "<i>your choice</i>: where it does not, and of most numbers of samples; <i>hardly matters</i>: no "
                    "difference that could be measured, or less than " +
                        prose(percent(kLeastSaving)) + " of the time.");
 }

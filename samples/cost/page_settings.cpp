@@ -98,6 +98,13 @@ std::string recommendedRow(const Report& report) {
                       prose(percent(std::max(moreWrongPixels(report, m), 0.0)))});
 }
 
+std::string halfTimePixels(const Report& report, const HalfTime& half) {
+    const size_t samples = findLever(report.levers, LeverKind::samples);
+    const Configuration& own = report.measurements.front().configuration;
+    if (with(half.choice->configuration, samples, own[samples]) == own) return "–";
+    return half.wrongPixels > 0 ? prose(percent(half.wrongPixels)) : "none";
+}
+
 std::string halfTimeRow(const Report& report) {
     const HalfTime half = halfTime(report);
     if (!half.isShown()) return "";
@@ -105,8 +112,7 @@ std::string halfTimeRow(const Report& report) {
     const std::string time = half.measurement ? timeContent(report.measurements[*half.measurement].slowdown)
                                               : prose(relativeTime(half.relativeTime())) + small("expected");
     return choiceRow(report, numbered("half", number, changesInWords(report, *half.choice)) + halfTimeBadge(half),
-                     {time, prose(errorFigure(half.choice->relMse, report.floor())),
-                      half.wrongPixels > 0 ? prose(percent(half.wrongPixels)) : "–"});
+                     {time, prose(errorFigure(half.choice->relMse, report.floor())), halfTimePixels(report, half)});
 }
 
 /// The scene's own settings, and what the page answers.

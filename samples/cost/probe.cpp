@@ -62,6 +62,7 @@ ProbedBudget probeBudget(Device& device, const std::string& blob, uint32_t width
     Progress progress;
     ProbedBudget probed;
     probed.levers = scenes.levers();
+    probed.sceneSamples = facts.scene.samples;
     chooseSize(scenes, width, height, progress, probed);
     const std::vector<Measurement> small = measureSmall(scenes, budgetMs, progress, probed);
     probed.tried = small.size();

@@ -9,6 +9,7 @@ namespace cost {
 struct ProbedBudget {
     std::vector<Lever> levers;
     BudgetChoice choice;
+    uint32_t sceneSamples = 0;       // the scene's own
     size_t tried = 0;                // settings,
     uint32_t width = 0, height = 0;  // in pictures of this size,
     double seconds = 0;              // in all, pipelines and the check at full size included

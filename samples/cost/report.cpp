@@ -17,6 +17,11 @@ std::string Report::nameOf(size_t measurement) const {
     return name.empty() ? "the scene's own settings" : name;
 }
 
+void Report::compareSingles() {
+    comparisons =
+        compareLevers(levers, {measurements.begin(), measurements.begin() + static_cast<ptrdiff_t>(singles)}, moreSamples());
+}
+
 const Comparison* Report::comparisonOf(size_t measurement) const {
     const auto found =
         std::find_if(comparisons.begin(), comparisons.end(), [&](const Comparison& c) { return c.measurement == measurement; });
@@ -35,10 +40,10 @@ std::string budgetSentence(const Report& report) {
                number(fastestMs(report.levers, report.measurements, 1)) + " ms a sample.";
     std::string text = "Within " + limit + " fit " + choiceWords(report.levers, *report.choice) +
                        (report.choiceSamples < report.choice->samples ? ": about " : ": measured ") + number(report.choiceMs) +
-                       " ms, error " + number(report.choiceRelMse) +
+                       " ms, error " + errorFigure(report.choiceRelMse, report.floor()) +
                        " (the scene's own settings: " + number(report.measurements.front().ms.median * report.moreSamples()) +
-                       " ms, " + number(report.errorOf(0)) + ").";
-    return text + " " + givenUpSentence(report.levers, *report.choice);
+                       " ms, " + errorFigure(report.errorOf(0), report.floor()) + ").";
+    return text + " " + givenUpSentence(report.levers, *report.choice, report.sceneSamples);
 }
 
 }  // namespace cost

@@ -51,6 +51,8 @@ struct Report {
     double errorOf(size_t measurement) const;
     /// What the reference's own error adds to errorOf(): smaller ones are not to be believed.
     double floor() const { return reference.relMse / moreSamples(); }
+    /// Fills `comparisons` from the measurements of single settings.
+    void compareSingles();
     /// The comparison that a measurement is of, or null.
     const Comparison* comparisonOf(size_t measurement) const;
     /// What a measurement is called: its difference from the scene's own settings.

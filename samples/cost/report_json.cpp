@@ -116,7 +116,7 @@ Json budgetJson(const Report& report) {
     json["settings"]["samples"] = std::to_string(report.choice->samples);
     json["expected"] = {{"ms", report.choice->ms}, {"relmse", report.choice->relMse}};
     json["measured"] = {{"ms", report.choiceMs}, {"relmse", report.choiceRelMse}, {"samples", report.choiceSamples}};
-    json["given_up"] = givenUp(report.levers, *report.choice);
+    json["given_up"] = givenUp(report.levers, *report.choice, report.sceneSamples);
     return json;
 }
 

@@ -99,6 +99,7 @@ uint32_t chooseWork(Scenes& scenes, const BlobFacts& facts, const StudyOptions& 
     if (options.width) report.width = options.width, report.height = options.height;
     Measurer measurer(scenes, report.width, report.height, progress);
     const std::vector<Lever>& levers = scenes.levers();
+    measurer.wake(initialConfiguration(levers));
     const double ownMs = std::max(measurer.warmUp(initialConfiguration(levers), 2), 1e-3);
     const double bestMs = std::max(measurer.warmUp(bestConfiguration(levers), 2), ownMs);
     const Work work = workOf(oneAtATime(levers).size(), options.repeats, ownMs, bestMs);
@@ -189,12 +190,9 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.singles = report.measurements.size();
     addCombinations(measurer, measuring, start + left * (1 - kConfirmationShare), progress, report);
     report.reference = measurer.reference();
-    confirm(measurer, measuring, progress, report);
-
     nameSamples(report);
-    const std::vector<Measurement> singles(report.measurements.begin(),
-                                           report.measurements.begin() + static_cast<ptrdiff_t>(report.singles));
-    report.comparisons = compareLevers(report.levers, singles, report.moreSamples());
+    report.compareSingles();
+    confirm(measurer, measuring, progress, report);
     report.front = surelyOnFront(report);
     if (options.budgetMs > 0) spend(scenes, measurer, options, progress, report);
     report.failures = measurer.failures();

@@ -183,7 +183,7 @@ void applyBudget(Device& device, const Options& options, const Picture& picture,
     desc.light_sampling = chosen.light_sampling;
     desc.throughput_cutoff = chosen.throughput_cutoff;
     std::cout << "Chosen: " << choiceWords(found.levers, found.choice) << "; about " << std::lround(found.choice.ms) << " ms. "
-              << givenUpSentence(found.levers, found.choice) << "\n"
+              << givenUpSentence(found.levers, found.choice, found.sceneSamples) << "\n"
               << "Tried " << found.tried << " settings on " << found.width << "x" << found.height << " pixels, in "
               << std::ceil(found.seconds * 10) / 10 << " s with the check at full size.\n";
 }
