@@ -912,6 +912,9 @@ TEST_CASE("what halves the time is marked in the plot and in the table, hollow w
     CHECK(inSettings("−50\u00a0%"));
     CHECK(inSettings(">" + cost::number(report.errorOf(3)) + "<"));
     CHECK_FALSE(contains(html, "□"));
+    cost::Report slower = report;
+    slower.measurements[3].slowdown = {0.56, 0.55, 0.57};
+    CHECK(contains(cost::halfTimeSentence(slower), "Nearly: take 32 samples a pixel: 44 % less time"));
     cost::Report unsteady = report;
     unsteady.measurements[3].slowdown = {0.5, 0.4, 1.4};  // which the table calls the same time
     CHECK_FALSE(cost::halfTime(unsteady).measurement);

@@ -103,7 +103,10 @@ std::string halfTimeSentence(const Report& report) {
     const HalfTime half = halfTime(report);
     if (!half.choice) return "Nothing that was measured halves the time, or surely saves " + percent(kLeastSaving) + " of it.";
     if (half.advised) return advisedSentence(report, half);
-    std::string text = half.fits ? "Take " : "Nothing that was measured halves the time. What surely saves the most is ";
+    constexpr double kHalf = 0.52;
+    std::string text = !half.fits                    ? "Nothing that was measured halves the time. What surely saves the most is "
+                       : half.relativeTime() > kHalf ? "Nearly: take "
+                                                     : "Take ";
     text += changesInWords(report, *half.choice) + (half.measurement ? ": " : ": about ") + percent(1 - half.relativeTime()) +
             " less time, and " + errorChange(half.own.relMse, half.choice->relMse, report.floor());
     if (half.wrongPixels > kNoticeablePixels)
