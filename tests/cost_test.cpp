@@ -670,9 +670,9 @@ TEST_CASE("where a few pixels alone speak against a setting it is named, with wh
                    "The closest that just fails is Schlick's Fresnel: 40 % less time, but 0.55 % of the pixels visibly change; "
                    "the limit is 0.2 %."));
     report.measurements.back().error.relMse = 0.02;
-    CHECK_FALSE(contains(cost::recommendationSentence(report), "nearest"));
+    CHECK_FALSE(contains(cost::recommendationSentence(report), "closest"));
     report.measurements.back() = measured({1, 1, 1}, 0.6, 0.0104, 0.05);  // far more than a few
-    CHECK_FALSE(contains(cost::recommendationSentence(report), "nearest"));
+    CHECK_FALSE(contains(cost::recommendationSentence(report), "closest"));
 }
 
 TEST_CASE("what is fast by chance shuts nothing else out") {

@@ -8,7 +8,6 @@
 namespace cost {
 
 uint32_t affordableRounds(const Report& report, size_t measurement, uint32_t wanted, double seconds) {
-    constexpr double kBesideDevice = 1.5;  // a picture takes so many times what the device does: it is fetched and compared
     const double slowRound = (report.measurements.front().ms.upper + report.measurements[measurement].ms.upper) / 1000;
     const double fitting = seconds / (slowRound * kBesideDevice) - 1;  // one warms up
     if (fitting < kLeastRounds) return 0;

@@ -50,6 +50,9 @@ struct Failure {
     std::string reason;
 };
 
+/// A picture takes so many times what the device does: it is fetched and compared.
+constexpr double kBesideDevice = 1.5;
+
 struct TimedPicture {
     double ms = 0;
     double relMse = 0;

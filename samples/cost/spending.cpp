@@ -5,8 +5,6 @@
 namespace cost {
 namespace {
 
-constexpr double kBesideDevice = 1.5;  // a picture takes so many times what the device does: it is fetched and compared
-
 /// Of the choice, as many samples as fit the seconds, at least one.
 uint32_t affordableSamples(const BudgetChoice& choice, double msPerSample, double seconds) {
     const double fitting = seconds * 1000 / (msPerSample * kBesideDevice);

@@ -122,7 +122,7 @@ std::vector<Measurement> measureAgain(Measurer& measurer, std::vector<Configurat
 void addCombinations(Measurer& measurer, const StudyOptions& options, double deadline, const Progress& progress, Report& report) {
     // More samples come with some of them, and each with a blob of its own.
     const double each = report.prepareSeconds / static_cast<double>(report.pipelines) +
-                        report.measurements.front().ms.median * options.repeats * 1.5 / 1000;
+                        report.measurements.front().ms.median * options.repeats * kBesideDevice / 1000;
     const auto fitting = static_cast<size_t>(std::max((deadline - progress.seconds()) / each, 0.0));
     std::vector<Configuration> configurations =
         combinations(report.levers, report.measurements, std::min(options.combinations, fitting));
