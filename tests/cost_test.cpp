@@ -441,13 +441,62 @@ TEST_CASE("of upgrades the one that gains the most is named") {
 
 TEST_CASE("what is recommended is not said once more for half the time") {
     cost::Report report = manySamplesReport();
-    report.measurements[1] = measured({0, 1, 1}, 0.52, 0.01, 0.01);
+    report.measurements[1] = measured({0, 1, 1}, 0.48, 0.01, 0.01);
     report.compareSingles();
     REQUIRE(cost::recommended(report) == 1);
-    const cost::HalfTime half = cost::halfTime(report);
-    CHECK(half.measurement == 1);  // 61 samples fit half the time: about as many as were measured
-    CHECK_FALSE(half.isShown());
-    CHECK(cost::halfTimeSentence(report) == "The same: it nearly halves the time.");
+    CHECK(cost::halfTime(report).measurement == 1);  // 66 samples fit half the time: about as many as were measured
+    CHECK_FALSE(cost::halfTime(report).isShown());
+    CHECK(cost::halfTimeSentence(report) == "The same: it halves the time already.");
+    report.measurements[1] = measured({0, 1, 1}, 0.52, 0.01, 0.01);
+    REQUIRE(cost::recommended(report) == 1);
+    CHECK_FALSE(cost::halfTime(report).measurement);
+    CHECK(cost::halfTime(report).isShown());
+    CHECK(contains(cost::halfTimeSentence(report), "Take no Fresnel reflection and 61 samples a pixel: about 50 % less time"));
+}
+
+TEST_CASE("what was measured and takes over half of the time does not halve it") {
+    cost::Report report = manySamplesReport();
+    report.measurements[1] = measured({0, 1, 1}, 0.5, 0.3, 0.2);  // no choice
+    const auto half = [&] { return cost::halfTime(report); };
+    const auto fits = [&] { return half().fits && half().choice->ms <= half().own.ms / 2 * (1 + 1e-9); };
+    for (const double time : {0.501, 0.52, 0.56, 0.7, 0.97}) {
+        CAPTURE(time);
+        report.measurements[3] = measured({2, 1, 0}, time, 0.02, 0.01);  // 2 samples of 4, for 32 of 64
+        CHECK_FALSE(half().measurement);
+        CHECK(half().choice->samples == static_cast<uint32_t>(32 * 0.5 / time));
+        CHECK(half().choice->configuration == report.measurements[0].configuration);
+        CHECK(half().choice->relMse == doctest::Approx(0.01 * 4 / half().choice->samples));
+        CHECK(fits());
+    }
+    report.measurements[3].slowdown = {0.8, 0.4, 1.4};  // as long as the scene's own settings, for all that is known
+    CHECK(half().choice->samples == 16);
+    CHECK(fits());
+    report.measurements[3] = measured({2, 1, 0}, 0.56, 0.02, 0.01);
+    report.measurements[1] = measured({0, 1, 1}, 0.45, 0.011, 0.01);  // fits, with less error than 28 samples have
+    CHECK(half().measurement == 1);
+    CHECK(fits());
+    report.measurements[1] = measured({0, 1, 1}, 0.5, 0.3, 0.2);
+    report.measurements[3] = measured({2, 1, 0}, 0.5, 0.02, 0.01);
+    CHECK(half().measurement == 3);
+    CHECK(fits());
+}
+
+TEST_CASE("a setting of which fewer samples do not halve the time leaves room for others, or for none") {
+    cost::Report report = sampleReport();
+    report.sceneSamples = 2;
+    report.levers[2].settings = {{"1", "1 sample", 1}, {"2", "2 samples", 2}};
+    report.measurements = {measured({2, 1, 1}, 1, 0.01, 0.01), measured({0, 1, 1}, 0.5, 0.03, 0.2),
+                           measured({2, 1, 0}, 0.6, 0.02, 0.01)};
+    report.singles = 3;
+    report.compareSingles();
+    CHECK(cost::halfTime(report).measurement == 1);
+    report.measurements[1].slowdown = {0.6, 0.55, 0.65};
+    report.measurements[1].ms.median = 6;  // a sample alone is expected to fit
+    CHECK(cost::halfTime(report).choice->configuration[0] == 0);
+    CHECK(cost::halfTime(report).choice->samples == 1);
+    report.measurements.push_back(measured({0, 1, 0}, 0.55, 0.06, 0.2));
+    CHECK_FALSE(cost::halfTime(report).fits);
+    CHECK(contains(cost::halfTimeSentence(report), "Nothing that was measured halves the time."));
 }
 
 TEST_CASE("a cheap setting that misses bright sparks has less noise, and is wrong all the same") {
@@ -914,9 +963,10 @@ TEST_CASE("what halves the time is marked in the plot and in the table, hollow w
     CHECK_FALSE(contains(html, "□"));
     cost::Report slower = report;
     slower.measurements[3].slowdown = {0.56, 0.55, 0.57};
-    CHECK(contains(cost::halfTimeSentence(slower), "Nearly: take 32 samples a pixel: 44 % less time"));
+    CHECK(contains(cost::halfTimeSentence(slower), "Take 28 samples a pixel: about 51 % less time"));
     cost::Report unsteady = report;
     unsteady.measurements[3].slowdown = {0.5, 0.4, 1.4};  // which the table calls the same time
+    unsteady.measurements[1].error.relMse = 0.3;
     CHECK_FALSE(cost::halfTime(unsteady).measurement);
     CHECK(contains(cost::halfTimeSentence(unsteady), "about 50 % less time"));
     report.measurements.erase(report.measurements.begin() + 5);

@@ -69,10 +69,7 @@ std::optional<BudgetChoice> betterPicture(const Report& report) {
     if (!upgrade && !samples) return std::nullopt;
     BudgetChoice choice = {report.measurements.front().configuration, report.sceneSamples, 0, 0};
     if (upgrade) choice.configuration[upgrade->lever] = report.measurements[upgrade->measurement].configuration[upgrade->lever];
-    if (samples) {
-        const double factor = report.levers[samples->lever].settings[samples->accurate].value;
-        choice.samples = static_cast<uint32_t>(std::lround(factor * report.moreSamples()));
-    }
+    if (samples) choice.samples = report.samplesAtScene(report.levers[samples->lever].settings[samples->accurate].value);
     return choice;
 }
 

@@ -84,13 +84,11 @@ double expectedError(const std::vector<Lever>& levers, const std::vector<Measure
     return expected(levers, measurements, m, static_cast<uint32_t>(std::max(samples, 1L))).relMse;
 }
 
-std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
-                                         const std::vector<Measurement>& measurements, double pixelRatio) {
+std::vector<BudgetChoice> choicesWithin(double ms, const std::vector<Lever>& levers, const std::vector<Measurement>& measurements,
+                                        double pixelRatio) {
     constexpr double kMostSamples = 1 << 16;
     constexpr double kRounding = 1e-9;
-    constexpr double kSameError = 0.02;
     std::vector<BudgetChoice> choices;
-    double least = std::numeric_limits<double>::infinity();
     const size_t lever = findLever(levers, LeverKind::samples);
     for (const Measurement& m : measurements) {
         if (m.configuration[lever] != levers[lever].initial && isMeasuredAtOwnSamples(levers, measurements, m)) continue;
@@ -99,8 +97,14 @@ std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& le
         if (samples < 1) continue;
         choices.push_back(expected(levers, measurements, m, static_cast<uint32_t>(samples)));
         choices.back().ms *= pixelRatio;
-        least = std::min(least, choices.back().relMse);
     }
+    return choices;
+}
+
+std::optional<BudgetChoice> leastError(const std::vector<Lever>& levers, const std::vector<BudgetChoice>& choices) {
+    constexpr double kSameError = 0.02;
+    double least = std::numeric_limits<double>::infinity();
+    for (const BudgetChoice& choice : choices) least = std::min(least, choice.relMse);
     const auto best = std::min_element(choices.begin(), choices.end(), [&](const BudgetChoice& a, const BudgetChoice& b) {
         const bool goodA = a.relMse <= least * (1 + kSameError);
         const bool goodB = b.relMse <= least * (1 + kSameError);
@@ -108,6 +112,11 @@ std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& le
         return changes(levers, a) != changes(levers, b) ? changes(levers, a) < changes(levers, b) : a.relMse < b.relMse;
     });
     return best == choices.end() ? std::nullopt : std::optional(*best);
+}
+
+std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
+                                         const std::vector<Measurement>& measurements, double pixelRatio) {
+    return leastError(levers, choicesWithin(ms, levers, measurements, pixelRatio));
 }
 
 double fastestMs(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, double pixelRatio) {

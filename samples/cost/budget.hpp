@@ -22,9 +22,15 @@ BudgetChoice expected(const std::vector<Lever>& levers, const std::vector<Measur
 double expectedError(const std::vector<Lever>& levers, const std::vector<Measurement>& measurements, const Measurement& m,
                      double moreSamples);
 
-/// Of all measured configurations, each with as many samples as fit `ms`, the one with the least error expected; of those with about as little, the one
-/// that changes the fewest settings. `pixelRatio`: pixels of the picture that is wanted over those of the measured ones. Nothing where not even one sample
-/// fits.
+/// All measured configurations, each with as many samples as fit `ms`, but for those of which not even one fits. `pixelRatio`: pixels of the picture that is
+/// wanted over those of the measured ones.
+std::vector<BudgetChoice> choicesWithin(double ms, const std::vector<Lever>& levers, const std::vector<Measurement>& measurements,
+                                        double pixelRatio);
+
+/// The choice with the least error expected; of those with about as little, the one that changes the fewest settings. Nothing of none.
+std::optional<BudgetChoice> leastError(const std::vector<Lever>& levers, const std::vector<BudgetChoice>& choices);
+
+/// The same of choicesWithin.
 std::optional<BudgetChoice> chooseWithin(double ms, const std::vector<Lever>& levers,
                                          const std::vector<Measurement>& measurements, double pixelRatio);
 

@@ -10,75 +10,97 @@
 namespace cost {
 namespace {
 
+constexpr double kHalf = 0.5;
+
 /// With as many samples as the scene's own settings.
-std::vector<const Measurement*> atOwnSamples(const Report& report) {
+std::vector<size_t> atOwnSamples(const Report& report) {
     const size_t samples = findLever(report.levers, LeverKind::samples);
-    std::vector<const Measurement*> found;
-    for (const Measurement& m : report.measurements)
-        if (m.configuration[samples] == report.levers[samples].initial) found.push_back(&m);
+    std::vector<size_t> found;
+    for (size_t i = 0; i < report.measurements.size(); ++i)
+        if (report.measurements[i].configuration[samples] == report.levers[samples].initial) found.push_back(i);
     return found;
 }
 
-const Measurement& quickest(const std::vector<const Measurement*>& measurements) {
-    const auto quicker = [](const Measurement* a, const Measurement* b) { return a->slowdown.median < b->slowdown.median; };
-    return **std::min_element(measurements.begin(), measurements.end(), quicker);
-}
-
 /// Of those that surely save enough to be worth a change and are not surely slower than the fastest, the most accurate.
-std::optional<BudgetChoice> surelyFastest(const Report& report) {
-    std::vector<const Measurement*> faster = atOwnSamples(report);
+std::optional<size_t> surelyFastest(const Report& report) {
+    const auto time = [&](size_t i) -> const Spread& { return report.measurements[i].slowdown; };
+    std::vector<size_t> faster = atOwnSamples(report);
     const auto drop = [&](const auto& slow) { faster.erase(std::remove_if(faster.begin(), faster.end(), slow), faster.end()); };
-    drop([](const Measurement* m) { return m->slowdown.upper > 1 - kLeastSaving; });
+    drop([&](size_t i) { return time(i).upper > 1 - kLeastSaving; });
     if (faster.empty()) return std::nullopt;
-    const Spread first = quickest(faster).slowdown;
-    drop([&](const Measurement* m) { return surelySlower(m->slowdown, first); });
-    const auto better = [](const Measurement* a, const Measurement* b) { return a->error.relMse < b->error.relMse; };
-    return expected(report.levers, report.measurements, **std::min_element(faster.begin(), faster.end(), better),
-                    report.sceneSamples);
+    const auto quicker = [&](size_t a, size_t b) { return time(a).median < time(b).median; };
+    const Spread first = time(*std::min_element(faster.begin(), faster.end(), quicker));
+    drop([&](size_t i) { return surelySlower(time(i), first); });
+    const auto better = [&](size_t a, size_t b) {
+        return report.measurements[a].error.relMse < report.measurements[b].error.relMse;
+    };
+    return *std::min_element(faster.begin(), faster.end(), better);
 }
 
 /// By the levers of a measured configuration; not by its samples.
 double wrongByLevers(const Report& report, const Configuration& configuration) {
-    const size_t samples = findLever(report.levers, LeverKind::samples);
-    const Measurement& own = report.measurements.front();
-    if (with(configuration, samples, own.configuration[samples]) == own.configuration) return 0;
-    const auto measured = [&](const Measurement& m) { return m.configuration == configuration; };
-    const auto found = std::find_if(report.measurements.begin(), report.measurements.end(), measured);
-    return moreWrongPixels(report, *found);
+    if (report.isOwnButSamples(configuration)) return 0;
+    return moreWrongPixels(report, report.measurements[report.measurementOf(configuration)]);
 }
 
-/// Samples of a measurement, at the scene's own samples.
+/// Over the scene's own settings; what cannot be told from these takes as long.
+double timeOf(const Measurement& m) {
+    return covers(m.slowdown, 1) ? 1 : m.slowdown.median;
+}
+
 uint32_t samplesAtScene(const Report& report, const Measurement& m) {
-    return static_cast<uint32_t>(std::lround(samplesOf(report.levers, m.configuration) * report.moreSamples()));
+    return report.samplesAtScene(samplesOf(report.levers, m.configuration));
 }
 
-/// The measurement with the settings of a choice and about as many samples, where its time could be told from that of the scene's own settings.
-std::optional<size_t> measurementOf(const Report& report, const BudgetChoice& choice) {
+/// Whether a measurement has the settings of a choice but for the samples.
+bool hasSettingsOf(const Report& report, const Measurement& m, const BudgetChoice& choice) {
+    const size_t samples = findLever(report.levers, LeverKind::samples);
+    return with(m.configuration, samples, choice.configuration[samples]) == choice.configuration;
+}
+
+/// A choice that is expected to fit half of the time, with fewer samples where its settings were seen to take longer with no more of them. Nothing where not even
+/// one is left.
+std::optional<BudgetChoice> asMeasured(const Report& report, const BudgetChoice& own, BudgetChoice choice) {
+    for (const Measurement& m : report.measurements) {
+        const double time = timeOf(m);
+        const uint32_t samples = samplesAtScene(report, m);
+        if (time <= kHalf || samples > choice.samples || !hasSettingsOf(report, m, choice)) continue;
+        const auto fitting = static_cast<uint32_t>(samples * kHalf / time);
+        if (fitting == 0) return std::nullopt;
+        choice = expected(report.levers, report.measurements, report.measurements[report.measurementOf(choice.configuration)],
+                          fitting);
+        choice.ms = own.ms * time * fitting / samples;
+    }
+    return choice;
+}
+
+/// The least error within half of the time.
+std::optional<BudgetChoice> withinHalf(const Report& report, const BudgetChoice& own) {
+    std::vector<BudgetChoice> fitting;
+    for (const BudgetChoice& choice : choicesWithin(own.ms * kHalf, report.levers, report.measurements, 1))
+        if (const std::optional<BudgetChoice> measured = asMeasured(report, own, choice)) fitting.push_back(*measured);
+    return leastError(report.levers, fitting);
+}
+
+/// The measurement that fits half of the time with the settings of a choice and about as many samples.
+std::optional<size_t> measuredLike(const Report& report, const BudgetChoice& choice) {
     constexpr double kAbout = 0.1;
-    const size_t lever = findLever(report.levers, LeverKind::samples);
     for (size_t i = 0; i < report.measurements.size(); ++i) {
         const Measurement& m = report.measurements[i];
-        const bool sameLevers = with(m.configuration, lever, choice.configuration[lever]) == choice.configuration;
-        const double samples = samplesAtScene(report, m);
-        if (sameLevers && measurable(m.slowdown) && std::abs(samples - choice.samples) <= kAbout * choice.samples) return i;
+        const double more = std::abs(static_cast<double>(samplesAtScene(report, m)) - choice.samples);
+        if (timeOf(m) <= kHalf && hasSettingsOf(report, m, choice) && more <= kAbout * choice.samples) return i;
     }
     return std::nullopt;
 }
 
-/// Where the choice was measured, its figures are those of the tables.
-void takeMeasured(const Report& report, HalfTime& half) {
-    half.measurement = measurementOf(report, *half.choice);
-    if (!half.measurement) return;
-    const Measurement& m = report.measurements[*half.measurement];
-    half.choice = {m.configuration, samplesAtScene(report, m), half.own.ms * m.slowdown.median,
-                   report.errorOf(*half.measurement)};
+/// With the figures of the tables.
+BudgetChoice choiceOf(const Report& report, const BudgetChoice& own, size_t measurement) {
+    const Measurement& m = report.measurements[measurement];
+    return {m.configuration, samplesAtScene(report, m), own.ms * m.slowdown.median, report.errorOf(measurement)};
 }
 
-/// Where what is recommended is what saves the most, too.
-std::string advisedSentence(const Report& report, const HalfTime& half) {
-    if (report.measurements[recommended(report)].slowdown.median <= 0.5) return "The same: it halves the time already.";
-    return half.fits ? "The same: it nearly halves the time."
-                     : "Nothing that was measured halves the time; the same saves the most.";
+bool recommendedHalves(const Report& report) {
+    return timeOf(report.measurements[recommended(report)]) <= kHalf;
 }
 
 }  // namespace
@@ -86,27 +108,22 @@ std::string advisedSentence(const Report& report, const HalfTime& half) {
 HalfTime halfTime(const Report& report) {
     HalfTime half;
     half.own = expected(report.levers, report.measurements, report.measurements.front(), report.sceneSamples);
-    half.choice = chooseWithin(half.own.ms / 2, report.levers, report.measurements, 1);
-    half.fits = half.choice.has_value();
-    if (!half.fits) half.choice = surelyFastest(report);
-    const BudgetChoice advice = recommendedChoice(report);
-    const bool same = half.fits && advice.configuration == half.choice->configuration && advice.samples == half.choice->samples;
-    half.advised = same || report.measurements[recommended(report)].slowdown.median <= 0.5;
-    if (!half.choice) return half;
-    half.wrongPixels = wrongByLevers(report, half.choice->configuration);
-    takeMeasured(report, half);
-    half.advised = half.advised || (half.measurement && *half.measurement > 0 && *half.measurement == recommended(report));
+    half.choice = withinHalf(report, half.own);
+    half.measurement = half.choice ? measuredLike(report, *half.choice) : surelyFastest(report);
+    half.fits = half.choice || (half.measurement && timeOf(report.measurements[*half.measurement]) <= kHalf);
+    if (half.measurement) half.choice = choiceOf(report, half.own, *half.measurement);
+    if (half.choice) half.wrongPixels = wrongByLevers(report, half.choice->configuration);
+    half.advised = recommendedHalves(report) || half.measurement == recommended(report);
     return half;
 }
 
 std::string halfTimeSentence(const Report& report) {
     const HalfTime half = halfTime(report);
     if (!half.choice) return "Nothing that was measured halves the time, or surely saves " + percent(kLeastSaving) + " of it.";
-    if (half.advised) return advisedSentence(report, half);
-    constexpr double kHalf = 0.52;
-    std::string text = !half.fits                    ? "Nothing that was measured halves the time. What surely saves the most is "
-                       : half.relativeTime() > kHalf ? "Nearly: take "
-                                                     : "Take ";
+    if (half.advised)
+        return recommendedHalves(report) ? "The same: it halves the time already."
+                                         : "Nothing that was measured halves the time; the same saves the most.";
+    std::string text = half.fits ? "Take " : "Nothing that was measured halves the time. What surely saves the most is ";
     text += changesInWords(report, *half.choice) + (half.measurement ? ": " : ": about ") + percent(1 - half.relativeTime()) +
             " less time, and " + errorChange(half.own.relMse, half.choice->relMse, report.floor());
     if (half.wrongPixels > kNoticeablePixels)

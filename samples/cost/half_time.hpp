@@ -9,7 +9,8 @@ struct HalfTime {
     bool fits = false;     // else nothing measured halves the time
     bool advised = false;  // by what is recommended
     BudgetChoice own;
-    /// The least error within half the time, or what was measured with about as many samples; where nothing fits, the fastest that surely saves time. Time is expected to grow with the samples.
+    /// The least error within half the time, or what was measured with about as many samples and fits as well; where nothing fits, the fastest that surely
+    /// saves time. Time is expected to grow with the samples; what was measured to take over half is not chosen.
     std::optional<BudgetChoice> choice;
     std::optional<size_t> measurement;  // that is this choice; else its figures are expected by its samples
     double wrongPixels = 0;             // share of all that only the choice gets visibly wrong

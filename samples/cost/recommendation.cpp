@@ -26,8 +26,7 @@ bool savesTime(const Measurement& m) {
 
 BudgetChoice choiceOf(const Report& report, size_t measurement) {
     const Measurement& m = report.measurements[measurement];
-    const double samples = samplesOf(report.levers, m.configuration) * report.moreSamples();
-    return {m.configuration, static_cast<uint32_t>(std::max(std::lround(samples), 1L)), m.ms.median, m.error.relMse};
+    return {m.configuration, report.samplesAtScene(samplesOf(report.levers, m.configuration)), m.ms.median, m.error.relMse};
 }
 
 /// What would be recommended but for a few pixels: of these settings the one that changes the fewest. 0: none.

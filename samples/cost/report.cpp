@@ -1,6 +1,7 @@
 #include "report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "figures.hpp"
 
@@ -17,6 +18,10 @@ std::string Report::nameOf(size_t measurement) const {
     return name.empty() ? "the scene's own settings" : name;
 }
 
+uint32_t Report::samplesAtScene(double measured) const {
+    return static_cast<uint32_t>(std::max(std::lround(measured * moreSamples()), 1L));
+}
+
 void Report::compareSingles() {
     comparisons =
         compareLevers(levers, {measurements.begin(), measurements.begin() + static_cast<ptrdiff_t>(singles)}, moreSamples());
@@ -26,6 +31,18 @@ const Comparison* Report::comparisonOf(size_t measurement) const {
     const auto found =
         std::find_if(comparisons.begin(), comparisons.end(), [&](const Comparison& c) { return c.measurement == measurement; });
     return found == comparisons.end() ? nullptr : &*found;
+}
+
+size_t Report::measurementOf(const Configuration& configuration) const {
+    const auto found = std::find_if(measurements.begin(), measurements.end(),
+                                    [&](const Measurement& m) { return m.configuration == configuration; });
+    return static_cast<size_t>(found - measurements.begin());
+}
+
+bool Report::isOwnButSamples(const Configuration& configuration) const {
+    const size_t samples = findLever(levers, LeverKind::samples);
+    const Configuration& own = measurements.front().configuration;
+    return with(configuration, samples, own[samples]) == own;
 }
 
 double Report::errorOf(size_t measurement) const {

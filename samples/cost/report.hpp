@@ -46,6 +46,8 @@ struct Report {
     uint32_t samples() const { return samplesOf(levers, measurements.front().configuration); }
     /// How many times as many samples as were measured the scene takes by itself.
     double moreSamples() const { return static_cast<double>(sceneSamples) / samples(); }
+    /// As the scene takes them by itself, for so many that were measured: at least one.
+    uint32_t samplesAtScene(double measured) const;
     /// The error of a measurement at the scene's own samples, as all sentences, tables and plots give it: what differs from the scene's own settings by
     /// chance alone counts as these.
     double errorOf(size_t measurement) const;
@@ -55,6 +57,10 @@ struct Report {
     void compareSingles();
     /// The comparison that a measurement is of, or null.
     const Comparison* comparisonOf(size_t measurement) const;
+    /// The measurement of a configuration that was measured.
+    size_t measurementOf(const Configuration& configuration) const;
+    /// Whether a configuration has the scene's own settings but for the samples.
+    bool isOwnButSamples(const Configuration& configuration) const;
     /// What a measurement is called: its difference from the scene's own settings.
     std::string nameOf(size_t measurement) const;
 };

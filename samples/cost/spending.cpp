@@ -25,9 +25,8 @@ double measureChoice(const RenderOnce& render, double seconds, Report& report) {
 BudgetChoice fewerSamples(const Report& report) {
     const double fitting = report.choice->samples * report.budgetMs / report.choiceMs;
     const uint32_t samples = std::clamp(static_cast<uint32_t>(fitting), 1u, report.choice->samples - 1);
-    const auto same = [&](const Measurement& m) { return m.configuration == report.choice->configuration; };
-    const auto measured = std::find_if(report.measurements.begin(), report.measurements.end(), same);
-    BudgetChoice choice = expected(report.levers, report.measurements, *measured, samples);
+    const Measurement& measured = report.measurements[report.measurementOf(report.choice->configuration)];
+    BudgetChoice choice = expected(report.levers, report.measurements, measured, samples);
     choice.ms = report.choiceMs * samples / report.choice->samples;
     return choice;
 }
