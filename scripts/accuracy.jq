@@ -15,7 +15,7 @@ Written by `scripts/accuracy` from measurements of `minirt-cost`; run it again o
 
 Each lever is moved alone from what the scene says by itself. **Error** is relMSE, the mean of (x − r)² / (r² + 0.01) without the worst
 0.1 % of the pixels, against a reference with every lever at its most accurate; as expected at the scene's own samples, where bias has
-stayed and noise has fallen. **Time** is the accurate setting's over the cheap one's: the median, and the middle half, of all pairs of repeats, which were
+stayed and noise has fallen. Samples are named at that number too, also where fewer were measured. **Time** is the accurate setting's over the cheap one's: the median, and the middle half, of all pairs of repeats, which were
 measured in rounds in which all settings take turns; the drift of whole rounds is taken out. A pixel is **wrong** when its 8-bit sRGB value is off by more
 than 2 steps; given where pictures have no noise, by how many more the cheap setting gets wrong at the same samples.
 `keep`: costs no time, or the error falls by a larger factor than the time grows; `trade`: more accurate, but the time grows by the larger factor; `spare`: costs time for

@@ -61,6 +61,11 @@ nlohmann::json alone(const nlohmann::json& report, const std::string& lever, con
     return {};
 }
 
+/// With four times the scene's own samples.
+nlohmann::json withMoreSamples(const nlohmann::json& report) {
+    return alone(report, "samples", std::to_string(4 * report["scene_samples"].get<int>()));
+}
+
 void checkRefused(const Words& command, const std::string& part) {
     const Outcome outcome = run(command);
     CAPTURE(outcome.err);
@@ -90,7 +95,7 @@ TEST_CASE("a scene file's levers are measured against a reference that is more a
     const auto bare = alone(report, "fresnel", "none");
     CHECK(own["error"]["relmse"] < bare["error"]["relmse"]);
     CHECK(own["same_samples"]["wrong_pixels"] < bare["same_samples"]["wrong_pixels"]);
-    CHECK(alone(report, "samples", "8")["error"]["relmse"] < own["error"]["relmse"]);
+    CHECK(withMoreSamples(report)["error"]["relmse"] < own["error"]["relmse"]);
     CHECK(alone(report, "depth", "1")["bias"]["relmse"] > own["bias"]["relmse"]);
     CHECK(report["findings"].size() == 2);
     CHECK(report["recommendation"]["commands"].size() == 2);
@@ -110,7 +115,7 @@ TEST_CASE("a blob's levers are those of the rendering, and its noise is told fro
     for (const auto& lever : report["levers"]) CHECK(lever["name"] != "fresnel");
     const auto& own = report["measurements"][0];
     CHECK(own["bias"]["standard_error"] > 0);
-    CHECK(alone(report, "samples", "8")["error"]["relmse"] < own["error"]["relmse"]);
+    CHECK(withMoreSamples(report)["error"]["relmse"] < own["error"]["relmse"]);
     CHECK(report["budget"]["fits"] == true);
     CHECK(report["budget"]["measured"]["ms"] <= report["budget"]["ms"]);
 }

@@ -1137,3 +1137,19 @@ TEST_CASE("the JSON holds every measurement with its settings by name") {
     CHECK(json["half_time"]["choice"]["settings"]["samples"] == "32");
     CHECK(json["levers"][1]["reason"] == "no medium disperses light");
 }
+
+TEST_CASE("the JSON names samples as the page does, at the scene's own number, wherever fewer were measured") {
+    cost::Report report = manySamplesReport();
+    report.nameSamples();
+    const auto json = nlohmann::json::parse(cost::reportJson(report));
+    CHECK(json["samples"] == 4);
+    CHECK(json["levers"][2]["settings"] == nlohmann::json({"32", "64", "128"}));
+    CHECK(json["levers"][2]["own"] == "64");
+    CHECK(json["measurements"][3]["name"] == "32 samples");
+    CHECK(json["measurements"][3]["settings"]["samples"] == "32");
+    for (const auto& c : json["comparisons"])
+        if (c["lever"] == "samples") CHECK((c["cheap"] == "64" || c["accurate"] == "64"));
+    report.sceneSamples = 2;
+    report.nameSamples();
+    CHECK(report.levers[2].settings[0].words == "1 sample");
+}

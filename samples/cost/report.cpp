@@ -22,6 +22,14 @@ uint32_t Report::samplesAtScene(double measured) const {
     return static_cast<uint32_t>(std::max(std::lround(measured * moreSamples()), 1L));
 }
 
+void Report::nameSamples() {
+    for (Setting& setting : levers[findLever(levers, LeverKind::samples)].settings) {
+        const uint32_t samples = samplesAtScene(setting.value);
+        setting.name = std::to_string(samples);
+        setting.words = setting.name + (samples == 1 ? " sample" : " samples");
+    }
+}
+
 void Report::compareSingles() {
     comparisons =
         compareLevers(levers, {measurements.begin(), measurements.begin() + static_cast<ptrdiff_t>(singles)}, moreSamples());

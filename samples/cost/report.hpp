@@ -48,6 +48,8 @@ struct Report {
     double moreSamples() const { return static_cast<double>(sceneSamples) / samples(); }
     /// As the scene takes them by itself, for so many that were measured: at least one.
     uint32_t samplesAtScene(double measured) const;
+    /// Names the samples as the scene takes them: "64 samples" in place of the 4 that were measured.
+    void nameSamples();
     /// The error of a measurement at the scene's own samples, as all sentences, tables and plots give it: what differs from the scene's own settings by
     /// chance alone counts as these.
     double errorOf(size_t measurement) const;

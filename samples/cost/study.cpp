@@ -154,15 +154,6 @@ void spend(Scenes& scenes, Measurer& measurer, const StudyOptions& options, cons
     scenes.setLevers(report.levers);
 }
 
-/// The samples of a report as the scene takes them: "64 samples" in place of the 4 that were measured.
-void nameSamples(Report& report) {
-    const double more = report.moreSamples();
-    for (Setting& setting : report.levers[findLever(report.levers, LeverKind::samples)].settings) {
-        const long samples = std::max(std::lround(setting.value * more), 1L);
-        setting.words = std::to_string(samples) + (samples == 1 ? " sample" : " samples");
-    }
-}
-
 }  // namespace
 
 void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOptions& options, Progress& progress,
@@ -190,7 +181,7 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.singles = report.measurements.size();
     addCombinations(measurer, measuring, start + left * (1 - kConfirmationShare), progress, report);
     report.reference = measurer.reference();
-    nameSamples(report);
+    report.nameSamples();
     report.compareSingles();
     confirm(measurer, measuring, progress, report);
     report.front = surelyOnFront(report);
