@@ -439,6 +439,22 @@ TEST_CASE("of upgrades the one that gains the most is named") {
     CHECK(contains(cost::betterPictureSentence(report), "Take exact Fresnel: "));
 }
 
+TEST_CASE("a setting that saves time and makes a better picture is named for both, and typed once") {
+    cost::Report report = twoSettings(1, 2, 0.8, 0.05, 0.01);
+    report.measurements.front().bias.value = 0.04;
+    REQUIRE(cost::recommended(report) == 1);
+    CHECK(cost::adviceOn(report, report.comparisons.front()).action == cost::Action::switchTo);
+    CHECK(contains(cost::betterPictureSentence(report),
+                   "Take exact Fresnel: 20 % less time, and the error falls from 0.0500 to 0.0100."));
+    REQUIRE(cost::betterPicture(report));
+    CHECK(cost::betterPicture(report)->configuration[0] == 2);
+    CHECK(contains(cost::page(report), "For the same picture in less time"));
+    CHECK_FALSE(contains(cost::page(report), "For a better picture"));
+    report = twoSettings(1, 2, 0.8, 0.0102, 0.01);  // hardly better
+    REQUIRE(cost::recommended(report) == 1);
+    CHECK_FALSE(contains(cost::betterPictureSentence(report), "exact Fresnel"));
+}
+
 TEST_CASE("what is recommended is not said once more for half the time") {
     cost::Report report = manySamplesReport();
     report.measurements[1] = measured({0, 1, 1}, 0.48, 0.01, 0.01);

@@ -56,6 +56,20 @@ Advice tradeAdvice(const Lever& lever, const Comparison& c, const Effect& effect
     return pays ? Advice{Action::keep, "loses more than it saves"} : Advice{Action::choose, "faster, but worse"};
 }
 
+/// By what a setting does to the picture, and what that takes.
+Advice pictureAdvice(const Report& report, const Comparison& c) {
+    const Effect effect = effectOf(c);
+    if (!effect.better && !effect.worse) return sameErrorAdvice(c, effect);
+    if (effect.mixed)
+        return {Action::choose, effect.better ? "fewer wrong pixels, but more error" : "less error, but more wrong pixels"};
+    const bool little = std::abs(c.removed) < kLeastSaving && c.wrongPixels <= kNoticeablePixels;
+    if (effect.better && little && !isSamplesOrIntegrator(report.levers[c.lever]))
+        return {Action::hardlyMatters, effect.slower ? "slower, and only a little better" : "only a little better"};
+    if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
+    if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
+    return tradeAdvice(report.levers[c.lever], c, effect);
+}
+
 /// Numbers of the comparisons that lead their levers; of levers that everybody knows last.
 std::vector<size_t> leadingOnes(const Report& report) {
     std::vector<size_t> order;
@@ -80,17 +94,11 @@ double mostTimeToChoose(const Report& report, const std::vector<size_t>& compari
 }  // namespace
 
 Advice adviceOn(const Report& report, const Comparison& c) {
-    if (savesForNothing(report, c.measurement)) return savingAdvice(report, c);
-    const Effect effect = effectOf(c);
-    if (!effect.better && !effect.worse) return sameErrorAdvice(c, effect);
-    if (effect.mixed)
-        return {Action::choose, effect.better ? "fewer wrong pixels, but more error" : "less error, but more wrong pixels"};
-    const bool little = std::abs(c.removed) < kLeastSaving && c.wrongPixels <= kNoticeablePixels;
-    if (effect.better && little && !isSamplesOrIntegrator(report.levers[c.lever]))
-        return {Action::hardlyMatters, effect.slower ? "slower, and only a little better" : "only a little better"};
-    if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
-    if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
-    return tradeAdvice(report.levers[c.lever], c, effect);
+    return savesForNothing(report, c.measurement) ? savingAdvice(report, c) : pictureAdvice(report, c);
+}
+
+bool isUpgrade(const Report& report, const Comparison& c) {
+    return pictureAdvice(report, c).action == Action::upgrade;
 }
 
 std::string instruction(const Report& report, const Comparison& c) {

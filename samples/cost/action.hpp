@@ -25,7 +25,10 @@ Advice adviceOn(const Report& report, const Comparison& comparison);
 /// The same in words that name the settings: "Keep exact Fresnel", "Switch to 12 bounces", "Your choice".
 std::string instruction(const Report& report, const Comparison& comparison);
 
-/// "switch", "could switch", "upgrade", "keep", "not needed", "your choice", "hardly matters".
+/// Whether the setting that a comparison tries makes a better picture that is worth its time, also where it is to be taken for saving time.
+bool isUpgrade(const Report& report, const Comparison& comparison);
+
+/// An action in words: "switch", "could switch", "upgrade", "keep", "not needed", "your choice", "hardly matters".
 std::string actionWords(Action action);
 
 /// The same as a name, in JSON and as a class of the page: "switch", "could-switch", "upgrade", "keep", "not-needed", "choose", "hardly-matters".

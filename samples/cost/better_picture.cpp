@@ -33,7 +33,7 @@ double gain(const Comparison& c) {
 const Comparison* bestUpgrade(const Report& report) {
     const Comparison* best = nullptr;
     for (const Comparison& c : report.comparisons)
-        if (adviceOn(report, c).action == Action::upgrade && (!best || gain(c) > gain(*best))) best = &c;
+        if (isUpgrade(report, c) && (!best || gain(c) > gain(*best))) best = &c;
     return best;
 }
 

@@ -74,7 +74,9 @@ std::string howToSection(const Report& report) {
     std::string text = typed(report, recommended(report) ? "For the same picture in less time" : "With the scene's own settings",
                              recommendedChoice(report));
     if (half.isShown()) text += typed(report, half.fits ? "For half the time" : "For the fastest", *half.choice);
-    if (const std::optional<BudgetChoice> better = betterPicture(report)) text += typed(report, "For a better picture", *better);
+    const std::optional<BudgetChoice> better = betterPicture(report);
+    if (better && commandsFor(report, *better) != commandsFor(report, recommendedChoice(report)))
+        text += typed(report, "For a better picture", *better);
     return element("h2", "", "What to type") + element("div", "class=\"card howto\"", text);
 }
 
