@@ -29,7 +29,8 @@ struct Comparison {
     double wrongPixels = 0;  // share of the pixels that the cheap setting alone gets visibly wrong; 0 where noise hides it
     double usefulness = 0;   // logarithm of how much more an accurate picture gets out of its time: 1 / (error * time)
 
-    /// The error of the setting that is not the scene's own.
+    /// The error of the scene's own setting, and of the other one.
+    double errorNow() const { return sceneHasAccurate ? errorAccurate : errorCheap; }
     double errorThen() const { return sceneHasAccurate ? errorCheap : errorAccurate; }
 };
 

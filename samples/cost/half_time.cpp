@@ -31,9 +31,7 @@ std::optional<size_t> surelyFastest(const Report& report) {
     const auto quicker = [&](size_t a, size_t b) { return time(a).median < time(b).median; };
     const Spread first = time(*std::min_element(faster.begin(), faster.end(), quicker));
     drop([&](size_t i) { return surelySlower(time(i), first); });
-    const auto better = [&](size_t a, size_t b) {
-        return report.measurements[a].error.relMse < report.measurements[b].error.relMse;
-    };
+    const auto better = [&](size_t a, size_t b) { return report.errorOf(a) < report.errorOf(b); };
     return *std::min_element(faster.begin(), faster.end(), better);
 }
 

@@ -33,7 +33,7 @@ std::vector<Measurement> measureSmall(Scenes& scenes, double budgetMs, Progress&
     Measurer measurer(scenes, probed.width, probed.height, progress);
     measurer.makeReference(bestConfiguration(levers), std::clamp(budgetMs * 1e-3, 0.25, 1.0), 2 * kSamples);
     std::vector<Measurement> measurements = measurer.measure(oneAtATime(levers), kRounds, 0);
-    std::vector<Configuration> more = combinations(levers, measurements, kCombinations);
+    std::vector<Configuration> more = combinations(levers, compareLevers(levers, measurements, 1), kCombinations);
     more.insert(more.begin(), initialConfiguration(levers));
     const std::vector<Measurement> found = measurer.measure(more, kRounds, 0);
     measurements.insert(measurements.end(), found.begin() + 1, found.end());

@@ -14,15 +14,20 @@ struct Change {
     double error = 0;
 };
 
-std::vector<Change> changesOf(const std::vector<Measurement>& singles) {
-    const Measurement& own = singles.front();
+std::vector<Change> changesOf(const std::vector<Comparison>& comparisons) {
     std::vector<Change> changes;
-    for (const Measurement& m : singles)
-        for (size_t i = 0; i < m.configuration.size(); ++i)
-            if (m.configuration[i] != own.configuration[i])
-                changes.push_back({i, m.configuration[i], covers(m.slowdown, 1) ? 0 : std::log(m.slowdown.median),
-                                   std::log(std::max(m.error.relMse, 1e-12) / std::max(own.error.relMse, 1e-12))});
+    changes.reserve(comparisons.size());
+    for (const Comparison& c : comparisons)
+        changes.push_back({c.lever, c.sceneHasAccurate ? c.cheap : c.accurate,
+                           covers(c.relativeTime, 1) ? 0 : std::log(c.relativeTime.median),
+                           std::log(std::max(c.errorThen(), 1e-12) / std::max(c.errorNow(), 1e-12))});
     return changes;
+}
+
+size_t changedLevers(const Configuration& configuration, const Configuration& own) {
+    size_t count = 0;
+    for (size_t i = 0; i < own.size(); ++i) count += configuration[i] != own[i] ? 1 : 0;
+    return count;
 }
 
 /// Takes each lever's changes as they come, and drops those that gain less than one taken before.
@@ -52,14 +57,15 @@ std::vector<Configuration> oneAtATime(const std::vector<Lever>& levers) {
     return configurations;
 }
 
-std::vector<Configuration> combinations(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t most) {
+std::vector<Configuration> combinations(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons,
+                                        size_t most) {
     constexpr double kSameError = 0.005;
     const Configuration own = initialConfiguration(levers);
     Configuration base = own;
     std::vector<double> saved(levers.size(), 0);
     std::vector<Change> finer;
     std::vector<Change> faster;
-    for (const Change& change : changesOf(singles)) {
+    for (const Change& change : changesOf(comparisons)) {
         if (change.time < 0 && change.error <= kSameError && change.time < saved[change.lever]) {
             saved[change.lever] = change.time;
             base[change.lever] = change.setting;
@@ -75,12 +81,8 @@ std::vector<Configuration> combinations(const std::vector<Lever>& levers, const 
     walk(finer, &Change::error, base, most / 2 + 1, found);
     walk(faster, &Change::time, base, most, found);
     std::vector<Configuration> fresh;
-    for (const Configuration& c : found) {
-        const auto same = [&](const Measurement& m) { return m.configuration == c; };
-        const bool known =
-            std::any_of(singles.begin(), singles.end(), same) || std::find(fresh.begin(), fresh.end(), c) != fresh.end();
-        if (!known) fresh.push_back(c);
-    }
+    for (const Configuration& c : found)
+        if (changedLevers(c, own) > 1 && std::find(fresh.begin(), fresh.end(), c) == fresh.end()) fresh.push_back(c);
     return fresh;
 }
 

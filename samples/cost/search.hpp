@@ -1,14 +1,15 @@
 // Which configurations are worth measuring.
 #pragma once
-#include "measure.hpp"
+#include "comparison.hpp"
 
 namespace cost {
 
 /// The scene's own settings first, then each other setting of each lever alone.
 std::vector<Configuration> oneAtATime(const std::vector<Lever>& levers);
 
-/// At most `most` combinations, greedily from what each lever did alone (`singles`, as oneAtATime gave them): first all that saves time at no
-/// error; from there, step by step, what removes the most error for its time, and what saves the most time for its error.
-std::vector<Configuration> combinations(const std::vector<Lever>& levers, const std::vector<Measurement>& singles, size_t most);
+/// At most `most` combinations of several levers, greedily from what each did alone: first all that saves time at no error; from there, step by step, what removes
+/// the most error for its time, and what saves the most time for its error.
+std::vector<Configuration> combinations(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons,
+                                        size_t most);
 
 }  // namespace cost

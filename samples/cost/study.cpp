@@ -125,7 +125,7 @@ void addCombinations(Measurer& measurer, const StudyOptions& options, double dea
                         report.measurements.front().ms.median * options.repeats * kBesideDevice / 1000;
     const auto fitting = static_cast<size_t>(std::max((deadline - progress.seconds()) / each, 0.0));
     std::vector<Configuration> configurations =
-        combinations(report.levers, report.measurements, std::min(options.combinations, fitting));
+        combinations(report.levers, report.comparisons, std::min(options.combinations, fitting));
     if (configurations.empty()) return;
     for (Measurement& m : measureAgain(measurer, std::move(configurations), options.repeats, deadline, report))
         report.measurements.push_back(std::move(m));
@@ -179,10 +179,10 @@ void study(Scenes& scenes, const BlobFacts& facts, bool cpuDevice, const StudyOp
     report.measurements =
         measurer.measure(oneAtATime(report.levers), options.repeats, start + left * (kReferenceShare + kSinglesShare));
     report.singles = report.measurements.size();
+    report.compareSingles();
     addCombinations(measurer, measuring, start + left * (1 - kConfirmationShare), progress, report);
     report.reference = measurer.reference();
     report.nameSamples();
-    report.compareSingles();
     confirm(measurer, measuring, progress, report);
     report.front = surelyOnFront(report);
     if (options.budgetMs > 0) spend(scenes, measurer, options, progress, report);
