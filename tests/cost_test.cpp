@@ -89,6 +89,7 @@ cost::Measurement measured(cost::Configuration configuration, double slowdown, d
 /// Exact Fresnel costs 2 % over Schlick's and removes 80 %; twice the samples take twice the time and halve the error.
 cost::Report sampleReport() {
     cost::Report report;
+    report.device.is_cpu = 1;
     report.scene = "glass & <ice>";
     report.file = "glass & <ice>.json";
     report.baked = true;
@@ -833,6 +834,22 @@ TEST_CASE("no recommendation is timed again beyond the time") {
     CHECK(cost::affordableRounds(report, 6, 5, 0.09) == 0);
     CHECK(cost::affordableRounds(report, 6, 5, 0.12) == 4);
     CHECK(cost::affordableRounds(report, 6, 5, 100) == 5);
+}
+
+TEST_CASE("what wakes a GPU counts as time that is taken") {
+    cost::Report report = sampleReport();
+    report.prepareSeconds = 4;
+    report.pipelines = 8;  // half a second each
+    const auto rounds = [&](double seconds) { return cost::affordableRounds(report, 2, 5, seconds); };
+    const auto combinations = [&](double seconds) { return cost::affordableCombinations(report, 5, seconds); };
+    CHECK(rounds(1) == 5);
+    CHECK(combinations(2) == 3);
+    report.device.is_cpu = 0;
+    CHECK(rounds(1) == 0);
+    CHECK(rounds(2) == 5);
+    CHECK(combinations(0.9) == 0);
+    CHECK(combinations(2) == 1);
+    CHECK(combinations(3) == 3);
 }
 
 TEST_CASE("of noisy pictures the error counts that the scene's own samples leave") {

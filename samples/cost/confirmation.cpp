@@ -9,7 +9,7 @@ namespace cost {
 
 uint32_t affordableRounds(const Report& report, size_t measurement, uint32_t wanted, double seconds) {
     const double slowRound = (report.measurements.front().ms.upper + report.measurements[measurement].ms.upper) / 1000;
-    const double fitting = seconds / (slowRound * kBesideDevice) - 1;  // one warms up
+    const double fitting = (seconds - wakeSeconds(report.device)) / (slowRound * kBesideDevice) - 1;  // one warms up
     if (fitting < kLeastRounds) return 0;
     return static_cast<uint32_t>(std::min<double>(wanted, fitting));
 }

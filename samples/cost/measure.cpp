@@ -63,6 +63,10 @@ double systematicError(const Measurement& m, const Configuration& own) {
     return coarser && m.shift.isSignificant() ? m.shift.value : 0;
 }
 
+double wakeSeconds(const minirt_device_info& device) {
+    return device.is_cpu ? 0 : kWakeMs / 1000;
+}
+
 Picture Measurer::render(const Configuration& configuration, uint32_t seed, uint32_t firstSample, uint32_t samples, double& ms) {
     minirt_render_desc desc = renderDesc(scenes_.levers(), configuration);
     desc.width = width_;

@@ -53,6 +53,9 @@ struct Failure {
 /// A picture takes so many times what the device does: it is fetched and compared.
 constexpr double kBesideDevice = 1.5;
 
+/// What Measurer::wake takes at most.
+double wakeSeconds(const minirt_device_info& device);
+
 struct TimedPicture {
     double ms = 0;
     double relMse = 0;

@@ -86,4 +86,11 @@ std::vector<Configuration> combinations(const std::vector<Lever>& levers, const 
     return fresh;
 }
 
+size_t affordableCombinations(const Report& report, uint32_t repeats, double seconds) {
+    // More samples come with some of them, and each with a blob of its own.
+    const double each = report.prepareSeconds / static_cast<double>(report.pipelines) +
+                        report.measurements.front().ms.median * repeats * kBesideDevice / 1000;
+    return static_cast<size_t>(std::max((seconds - wakeSeconds(report.device)) / each, 0.0));
+}
+
 }  // namespace cost

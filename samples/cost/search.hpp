@@ -1,6 +1,6 @@
 // Which configurations are worth measuring.
 #pragma once
-#include "comparison.hpp"
+#include "report.hpp"
 
 namespace cost {
 
@@ -11,5 +11,8 @@ std::vector<Configuration> oneAtATime(const std::vector<Lever>& levers);
 /// the most error for its time, and what saves the most time for its error.
 std::vector<Configuration> combinations(const std::vector<Lever>& levers, const std::vector<Comparison>& comparisons,
                                         size_t most);
+
+/// How many combinations can be baked and measured so often within `seconds`, by what the single settings took.
+size_t affordableCombinations(const Report& report, uint32_t repeats, double seconds);
 
 }  // namespace cost

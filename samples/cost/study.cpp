@@ -120,10 +120,7 @@ std::vector<Measurement> measureAgain(Measurer& measurer, std::vector<Configurat
 
 /// Ends by `deadline`, of the progress's clock.
 void addCombinations(Measurer& measurer, const StudyOptions& options, double deadline, const Progress& progress, Report& report) {
-    // More samples come with some of them, and each with a blob of its own.
-    const double each = report.prepareSeconds / static_cast<double>(report.pipelines) +
-                        report.measurements.front().ms.median * options.repeats * kBesideDevice / 1000;
-    const auto fitting = static_cast<size_t>(std::max((deadline - progress.seconds()) / each, 0.0));
+    const size_t fitting = affordableCombinations(report, options.repeats, deadline - progress.seconds());
     std::vector<Configuration> configurations =
         combinations(report.levers, report.comparisons, std::min(options.combinations, fitting));
     if (configurations.empty()) return;
