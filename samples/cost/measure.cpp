@@ -197,6 +197,7 @@ TimedPicture Measurer::once(const Configuration& configuration) {
 
 std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& configurations, uint32_t repeats, double deadline) {
     scenes_.prepare(configurations);
+    wake(configurations.front());
     std::vector<Configuration> running;
     for (const Configuration& c : configurations) {
         progress_.show("warming up", running.size(), configurations.size());
@@ -205,7 +206,6 @@ std::vector<Measurement> Measurer::measure(const std::vector<Configuration>& con
     if (running.empty() || running.front() != configurations.front())
         throw std::runtime_error("the scene's own settings cannot be rendered: " + failures_.front().reason);
     if (!reference_.random) takeAccuratePictures(running);
-    wake(running.front());
     std::vector<Tally> tallies(running.size());
     std::vector<std::vector<Timing>> timings(running.size());
     uint32_t round = 0;
