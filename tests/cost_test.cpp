@@ -1040,6 +1040,55 @@ TEST_CASE("what halves the time is marked in the plot and in the table, hollow w
     CHECK(contains(cost::halfTimeSentence(report), "Take 32 samples a pixel: about 50 % less time"));
 }
 
+TEST_CASE("pixels that change are told alike in all rows of a measurement") {
+    cost::Report report = sampleReport();
+    const auto cells = [&](const std::string& row) {
+        const std::string html = cost::page(report);
+        std::vector<std::string> found;
+        for (size_t at = html.find(row); at != std::string::npos; at = html.find(row, at + 1)) {
+            const std::string label = "data-label=\"Visibly changed pixels\">";
+            const size_t end = html.find("</tr>", at);
+            const size_t from = html.find(label, at);
+            if (from < end) found.push_back(html.substr(from + label.size(), html.find("</td>", from) - from - label.size()));
+        }
+        return found;
+    };
+    const std::string schlick = "<b class=\"lever\">2</b> Schlick's Fresnel";
+    using Cells = std::vector<std::string>;
+    for (const double wrong : {0.01, 0.005, 0.0115}) {  // as many as of the scene's own, fewer, and too few more to count
+        CAPTURE(wrong);
+        report.measurements[2] = measured({1, 1, 1}, 0.8, 0.01, wrong);
+        report.compareSingles();
+        REQUIRE(cost::recommended(report) == 2);
+        CHECK(cells(schlick) == Cells{"none", "none"});
+    }
+    report.measurements[2].sameSamples.wrongPixels = 0.05;
+    report.compareSingles();
+    CHECK(cells(schlick) == Cells{"<a href=\"#picture-2\">4\u00a0%</a>"});
+    report.measurements[5] = measured({0, 1, 2}, 0.5, 0.01, 0.005);
+    REQUIRE(cost::recommended(report) == 5);
+    CHECK(cells("<b class=\"combination\">5</b>") == Cells{"none"});
+    report = manySamplesReport();
+    CHECK(cells("<b class=\"half\">3</b>") == Cells{"–"});
+}
+
+TEST_CASE("the sign for what is not to be believed is explained wherever a row of the table has it") {
+    const std::string key = "<b>≤</b>";
+    cost::Report report = sampleReport();
+    CHECK_FALSE(contains(cost::page(report), key));
+    report.reference.relMse = 0.005;  // of twice the samples, too
+    CHECK(contains(cost::page(report), key));
+    report.reference.relMse = 0.001;
+    report.measurements[5] = measured({1, 1, 0}, 0.45, 0.0004, 0.01);
+    report.measurements[5].sameSamples.relMse = 0;
+    report.measurements.front().bias.standardError = 1e-5;
+    report.compareSingles();
+    REQUIRE(cost::recommended(report) == 5);  // of which there is no row but the one at the top
+    CHECK(contains(cost::page(report), key));
+    report.measurements[5].error.relMse = 0.002;
+    CHECK_FALSE(contains(cost::page(report), key));
+}
+
 TEST_CASE("the parts of the page come in the order in which they are needed") {
     const std::string html = cost::page(sampleReport());
     size_t before = 0;

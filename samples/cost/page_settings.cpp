@@ -44,10 +44,13 @@ std::string errorContent(const Report& report, const Comparison& c) {
     return c.change == ErrorChange::none ? "same" : prose(errorFigure(c.errorThen(), report.floor()));
 }
 
-std::string pixelsContent(const Report& report, const Comparison& c) {
-    if (report.levers[c.lever].kind == LeverKind::samples) return "–";
-    if (c.change == ErrorChange::none || c.wrongPixels <= 0) return "none";
-    return linkToPicture(report, c.measurement, prose(percent(c.wrongPixels)));
+/// Of a measurement, and of choices with its settings.
+std::string pixelsContent(const Report& report, size_t measurement) {
+    const Measurement& m = report.measurements[measurement];
+    if (report.isOwnButSamples(m.configuration)) return "–";
+    const Comparison* c = report.comparisonOf(measurement);
+    const double changed = c ? c->wrongPixels : moreWrongPixels(report, m);
+    return changed <= 0 ? "none" : linkToPicture(report, measurement, prose(percent(changed)));
 }
 
 std::string comparisonCells(const Report& report, const Comparison& c) {
@@ -57,7 +60,7 @@ std::string comparisonCells(const Report& report, const Comparison& c) {
         element("td", "class=\"tried\"",
                 "<b class=\"lever\">" + std::to_string(c.measurement) + "</b> " + escaped(report.nameOf(c.measurement)));
     cells += cell(names[0], timeContent(c.relativeTime)) + cell(names[1], errorContent(report, c));
-    if (names.size() > 2) cells += cell(names[2], pixelsContent(report, c));
+    if (names.size() > 2) cells += cell(names[2], pixelsContent(report, c.measurement));
     return cells + element("td", "class=\"do\"", chip(advice.action) + small(advice.reason));
 }
 
@@ -94,15 +97,7 @@ std::string recommendedRow(const Report& report) {
     if (i == 0) return "";
     const Measurement& m = report.measurements[i];
     return choiceRow(report, numbered(groupOf(report, i), std::to_string(i), report.nameOf(i)) + recommendedBadge(),
-                     {timeContent(m.slowdown), prose(errorFigure(report.errorOf(i), report.floor())),
-                      prose(percent(std::max(moreWrongPixels(report, m), 0.0)))});
-}
-
-std::string halfTimePixels(const Report& report, const HalfTime& half) {
-    const size_t samples = findLever(report.levers, LeverKind::samples);
-    const Configuration& own = report.measurements.front().configuration;
-    if (with(half.choice->configuration, samples, own[samples]) == own) return "–";
-    return half.wrongPixels > 0 ? prose(percent(half.wrongPixels)) : "none";
+                     {timeContent(m.slowdown), prose(errorFigure(report.errorOf(i), report.floor())), pixelsContent(report, i)});
 }
 
 std::string halfTimeRow(const Report& report) {
@@ -112,7 +107,8 @@ std::string halfTimeRow(const Report& report) {
     const std::string time = half.measurement ? timeContent(report.measurements[*half.measurement].slowdown)
                                               : prose(relativeTime(half.relativeTime())) + small("expected");
     return choiceRow(report, numbered("half", number, changesInWords(report, *half.choice)) + halfTimeBadge(half),
-                     {time, prose(errorFigure(half.choice->relMse, report.floor())), halfTimePixels(report, half)});
+                     {time, prose(errorFigure(half.choice->relMse, report.floor())),
+                      pixelsContent(report, report.measurementOf(half.choice->configuration))});
 }
 
 /// The scene's own settings, and what the page answers.
@@ -148,15 +144,14 @@ std::string leftOut(const Report& report) {
     return items.empty() ? "" : element("ul", "class=\"left-out soft\"", items);
 }
 
-std::string settingsKey(const Report& report) {
+/// What the table's figures and signs mean.
+std::string settingsKey(const Report& report, const std::string& table) {
     std::string text =
         "<b>Time</b>: compared with the scene's own settings; beneath it, the middle half of all repeats. "
         "<b>Error</b>: at the scene's own " +
         samplesWords(report.sceneSamples) + ".";
     if (!report.reference.random) text += " <b>–</b>: not counted, since other samples change every edge.";
-    bool marked = false;
-    for (size_t i = 0; i < report.singles; ++i) marked = marked || report.errorOf(i) <= report.floor();
-    if (marked)
+    if (table.find("≤") != std::string::npos)
         text += " <b>≤</b>: no larger than what the error of the reference itself can make (" + number(report.floor()) +
                 "), and so not to be believed.";
     return element("p", "class=\"soft\"", text + " <code>minirtc levers</code> tells how to set each.");
@@ -165,8 +160,9 @@ std::string settingsKey(const Report& report) {
 }  // namespace
 
 std::string settingsSection(const Report& report) {
-    return element("h2", "id=\"settings\"", "Each setting: what the scene has, and what else there is") + table(report) +
-           settingsKey(report) + leftOut(report);
+    const std::string rows = table(report);
+    return element("h2", "id=\"settings\"", "Each setting: what the scene has, and what else there is") + rows +
+           settingsKey(report, rows) + leftOut(report);
 }
 
 }  // namespace cost
