@@ -485,6 +485,10 @@ TEST_CASE("what was measured and takes over half of the time does not halve it")
         CHECK(half().choice->relMse == doctest::Approx(0.01 * 4 / half().choice->samples));
         CHECK(fits());
     }
+    report.measurements[3] = measured({2, 1, 0}, 0.53, 0.02, 0.01);
+    report.measurements[2] = measured({1, 1, 1}, 1.002, 0.01, 0.01);  // in the same time the same picture: no way round
+    CHECK(half().choice->samples == 30);
+    CHECK(half().choice->configuration == report.measurements[0].configuration);
     report.measurements[3].slowdown = {0.8, 0.4, 1.4};  // as long as the scene's own settings, for all that is known
     CHECK(half().choice->samples == 16);
     CHECK(fits());

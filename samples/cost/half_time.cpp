@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 #include "commands.hpp"
 #include "figures.hpp"
@@ -56,20 +58,33 @@ bool hasSettingsOf(const Report& report, const Measurement& m, const BudgetChoic
     return with(m.configuration, samples, choice.configuration[samples]) == choice.configuration;
 }
 
-/// A choice that is expected to fit half of the time, with fewer samples where its settings were seen to take longer with no more of them. Nothing where not even
-/// one is left.
-std::optional<BudgetChoice> asMeasured(const Report& report, const BudgetChoice& own, BudgetChoice choice) {
-    for (const Measurement& m : report.measurements) {
-        const double time = timeOf(m);
-        const uint32_t samples = samplesAtScene(report, m);
-        if (time <= kHalf || samples > choice.samples || !hasSettingsOf(report, m, choice)) continue;
-        const auto fitting = static_cast<uint32_t>(samples * kHalf / time);
-        if (fitting == 0) return std::nullopt;
-        choice = expected(report.levers, report.measurements, report.measurements[report.measurementOf(choice.configuration)],
-                          fitting);
-        choice.ms = own.ms * time * fitting / samples;
-    }
-    return choice;
+/// How many samples take a time with the scene's own settings: on a straight line between those that were measured, and to none.
+double samplesWithin(const Report& report, double time) {
+    std::map<double, double> timeWith = {{0, 0}};
+    for (const Measurement& m : report.measurements)
+        if (report.isOwnButSamples(m.configuration)) timeWith[samplesAtScene(report, m)] = timeOf(m);
+    auto below = timeWith.begin();
+    auto above = std::next(below);
+    while (std::next(above) != timeWith.end() && above->second <= time) below = above++;
+    if (above->second <= time) return above->first * time / above->second;
+    return below->first + (above->first - below->first) * (time - below->second) / (above->second - below->second);
+}
+
+/// A choice with as many samples as fit half of the time by what was measured: of its own settings, and of how time grows with the samples. Nothing where not
+/// even one fits.
+std::optional<BudgetChoice> asMeasured(const Report& report, const BudgetChoice& own, const BudgetChoice& choice) {
+    const size_t lever = findLever(report.levers, LeverKind::samples);
+    const Measurement& base = report.measurements[report.measurementOf(choice.configuration)];
+    const bool atOwnSamples = base.configuration[lever] == report.levers[lever].initial;
+    double samples =
+        atOwnSamples ? samplesWithin(report, kHalf / timeOf(base)) : samplesAtScene(report, base) * kHalf / timeOf(base);
+    for (const Measurement& m : report.measurements)
+        if (hasSettingsOf(report, m, choice) && samplesAtScene(report, m) <= samples && timeOf(m) > kHalf)
+            samples = samplesAtScene(report, m) * kHalf / timeOf(m);
+    if (samples < 1) return std::nullopt;
+    BudgetChoice fitting = expected(report.levers, report.measurements, base, static_cast<uint32_t>(samples));
+    fitting.ms = own.ms * kHalf * fitting.samples / samples;
+    return fitting;
 }
 
 /// The least error within half of the time.

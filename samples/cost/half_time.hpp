@@ -10,7 +10,7 @@ struct HalfTime {
     bool advised = false;  // by what is recommended
     BudgetChoice own;
     /// The least error within half the time, or what was measured with about as many samples and fits as well; where nothing fits, the fastest that surely
-    /// saves time. Time is expected to grow with the samples; what was measured to take over half is not chosen.
+    /// saves time. Time is expected to grow with the samples as it did in what was measured.
     std::optional<BudgetChoice> choice;
     std::optional<size_t> measurement;  // that is this choice; else its figures are expected by its samples
     double wrongPixels = 0;             // share of all that only the choice gets visibly wrong
