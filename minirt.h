@@ -115,6 +115,12 @@ typedef struct minirt_uvec4 {
 #define MINIRT_TRAVERSAL_WORDS 10u
 #define MINIRT_SEGMENT_WORDS(volumes) (10u + (volumes))
 
+/* Words of the kernel whitted_shared (shaders/whitted/shared_work.glsl): counters, places of its queue, a segment with its pixel, sums of a pixel. */
+#define MINIRT_SHARED_COUNTER_WORDS 128u
+#define MINIRT_SHARED_QUEUE 262144u
+#define MINIRT_SHARED_SEGMENT_WORDS(volumes) (11u + (volumes))
+#define MINIRT_SHARED_SUM_WORDS 12u
+
 /* Queues of the wavefront: each has a header, which an indirect dispatch reads: groups, 1, 1, paths; then come the paths of each.
    A round of an even number empties the first four, one of an odd number the last four. */
 #define MINIRT_QUEUE_EVEN_RAYS 0u
@@ -238,14 +244,15 @@ struct minirt_medium {
 
 /* Pushed with each dispatch. */
 struct minirt_frame {
-    minirt_vec4 position;  /* xyz: camera in scene space; w: rays with no larger throughput are weak */
-    minirt_vec4 forward;   /* unit; w: radius of the lens */
-    minirt_vec4 right;     /* scaled to the half width of the image at distance 1; w: distance in focus */
-    minirt_vec4 up;        /* scaled to its half height; w: limit of what one path may add, 0: none */
-    minirt_uvec4 size;     /* x, y: image; z: room for waiting segments or in a queue; w: 1 in the last pass */
-    minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
-    minirt_uvec4 blocks;   /* x: first block of this dispatch, y: blocks in a row, z: seed, w: words of state a slot */
-    minirt_uvec4 sampling; /* x: sample index, y: MINIRT_FRAME_ flags, z: depth limit, w: 1: goes on; the round's parity */
+    minirt_vec4 position; /* xyz: camera in scene space; w: rays with no larger throughput are weak */
+    minirt_vec4 forward;  /* unit; w: radius of the lens */
+    minirt_vec4 right;    /* scaled to the half width of the image at distance 1; w: distance in focus */
+    minirt_vec4 up;       /* scaled to its half height; w: limit of what one path may add, 0: none */
+    minirt_uvec4 size;    /* x, y: image; z: room for waiting segments, of a lane, or in a queue; w: 1 in the last pass */
+    minirt_uvec4 region;  /* x, y: first pixel; z, w: one past the last */
+    minirt_uvec4 blocks;  /* x: first block of this dispatch, y: blocks in a row, z: seed, w: words of state a slot, or slots */
+    minirt_uvec4
+        sampling; /* x: sample index, y: MINIRT_FRAME_ flags, z: depth limit, w: 1: goes on, 2: ends; the round's parity */
 };
 
 struct minirt_counters {
@@ -285,10 +292,12 @@ typedef struct minirt_blob_section {
 } minirt_blob_section;
 
 typedef enum minirt_integrator {
-    MINIRT_INTEGRATOR_SCENE = 0, /* the one that the scene names; of both path tracers the one that is faster on the device */
+    MINIRT_INTEGRATOR_SCENE = 0, /* the one that the scene names; of two that draw the same, the one for this class of devices */
     MINIRT_INTEGRATOR_WHITTED = 1,
     MINIRT_INTEGRATOR_PATH = 2,
-    MINIRT_INTEGRATOR_WAVEFRONT = 3
+    MINIRT_INTEGRATOR_WAVEFRONT = 3, /* paths, by several kernels */
+    MINIRT_INTEGRATOR_WHITTED_SHARED =
+        4 /* Whitted's trees, shared by a GPU's lanes: for scenes where some are long; WHITTED on other devices */
 } minirt_integrator;
 
 typedef enum minirt_node_layout { MINIRT_NODES_QUANTISED = 0, MINIRT_NODES_FLOAT = 1 } minirt_node_layout;
@@ -829,7 +838,7 @@ inline minirt_result checkScene(BlobReader& r, const minirt_blob& b) {
     if (s.width == 0 || s.height == 0 || s.width > 16384 || s.height > 16384 || s.samples == 0 || s.max_depth > 255)
         return r.fail(MINIRT_ERROR_CORRUPT, "defaults of the rendering are out of range");
     if (s.camera.aperture < 0 || s.camera.focus_distance <= 0) return r.fail(MINIRT_ERROR_CORRUPT, "a lens that is none");
-    if (s.integrator < MINIRT_INTEGRATOR_WHITTED || s.integrator > MINIRT_INTEGRATOR_WAVEFRONT)
+    if (s.integrator < MINIRT_INTEGRATOR_WHITTED || s.integrator > MINIRT_INTEGRATOR_WHITTED_SHARED)
         return r.fail(MINIRT_ERROR_CORRUPT, "unknown integrator %llu", s.integrator);
     if (s.bvh_depth == 0 || s.bvh_depth > 64) return r.fail(MINIRT_ERROR_CORRUPT, "a hierarchy of depth %llu", s.bvh_depth);
     const minirt_scene_rows& rows = *b.rows;
@@ -1131,6 +1140,7 @@ struct minirt_context {
     VkPhysicalDeviceMemoryProperties memoryProperties = {};
     uint32_t stepBudget = 0;       // of a pixel in a dispatch
     bool hasBallots = false;       // in subgroups, by which the wavefront fills its queues
+    bool sharesTrees = false;      // whitted_shared may run: there are ballots, and no driver that ends loops
     double timestampPeriodNs = 0;  // 0: the queue has no timestamps
     uint64_t timestampMask = 0;
     VkCommandPool commandPool = VK_NULL_HANDLE;
@@ -1462,6 +1472,7 @@ inline void readDeviceProperties(minirt_context* c, uint32_t timestampBits) {
     c->limits = properties.properties.limits;
     c->hasBallots = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
                     (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT);
+    c->sharesTrees = c->hasBallots && properties.properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
     /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel whose own
        passes stay below 65535 / subgroup size can never get there. The margin is for saving and loading a traversal's stack. */
     c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
@@ -1998,6 +2009,7 @@ inline const char* integratorKernel(uint32_t integrator, uint32_t i) {
                                            "wave_miss",     "wave_shadow",  "wave_accumulate"};
     if (integrator == MINIRT_INTEGRATOR_WAVEFRONT) return wavefront[i];
     if (i > 0) return "";
+    if (integrator == MINIRT_INTEGRATOR_WHITTED_SHARED) return "whitted_shared";
     return integrator == MINIRT_INTEGRATOR_PATH ? "path" : "whitted";
 }
 
@@ -2110,10 +2122,17 @@ inline bool aimCamera(const minirt_scene* s, const minirt_camera& camera, minirt
     return lens && camera.vfov > 0 && camera.vfov < 180;
 }
 
+/* Of Whitted's tracers, which give the same picture: the one that shares trees where the blob holds it and the device can. */
+inline minirt_integrator whittedIntegrator(const minirt_scene* s) {
+    const bool shares = s->context->sharesTrees && hasIntegrator(s, MINIRT_INTEGRATOR_WHITTED_SHARED);
+    return shares || !hasIntegrator(s, MINIRT_INTEGRATOR_WHITTED) ? MINIRT_INTEGRATOR_WHITTED_SHARED : MINIRT_INTEGRATOR_WHITTED;
+}
+
 /* The scene's integrator. The two path tracers give the same picture, so of them the faster one on this class of devices: the wavefront on a CPU, whose
    driver runs both sides of every branch; one kernel on a GPU, which need not keep paths in memory (docs/performance.md). */
 inline minirt_integrator defaultIntegrator(const minirt_scene* s) {
-    if (s->desc.integrator == MINIRT_INTEGRATOR_WHITTED) return MINIRT_INTEGRATOR_WHITTED;
+    if (s->desc.integrator == MINIRT_INTEGRATOR_WHITTED || s->desc.integrator == MINIRT_INTEGRATOR_WHITTED_SHARED)
+        return whittedIntegrator(s);
     const bool waves = s->context->info.is_cpu && s->context->hasBallots;
     const minirt_integrator faster = waves ? MINIRT_INTEGRATOR_WAVEFRONT : MINIRT_INTEGRATOR_PATH;
     return hasIntegrator(s, faster) ? faster : static_cast<minirt_integrator>(s->desc.integrator);
@@ -2131,6 +2150,7 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     if (!d.samples) d.samples = scene.samples;
     d.max_depth = d.max_depth ? d.max_depth - 1 : scene.max_depth;
     if (!d.integrator) d.integrator = defaultIntegrator(job->scene);
+    if (d.integrator == MINIRT_INTEGRATOR_WHITTED_SHARED && !c->sharesTrees) d.integrator = whittedIntegrator(job->scene);
     if (!(d.max_dispatch_ms > 0)) d.max_dispatch_ms = 100.0f;
     if (d.throughput_cutoff == 0) d.throughput_cutoff = scene.throughput_cutoff;
     if (!d.region.width && !d.region.height && !d.region.x && !d.region.y) d.region = {0, 0, d.width, d.height};
@@ -2138,7 +2158,7 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "width and height must be 1 to 16384 (or both 0 for the scene's)");
     if (d.max_depth > 255)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "max_depth must be at most 256 (a limit of 255 bounces)");
-    if (d.integrator > MINIRT_INTEGRATOR_WAVEFRONT) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "unknown integrator");
+    if (d.integrator > MINIRT_INTEGRATOR_WHITTED_SHARED) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "unknown integrator");
     if (d.light_sampling > MINIRT_LIGHT_SAMPLING_SURFACES)
         return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "unknown light_sampling");
     if (!(d.clamp >= 0)) return fail(c, MINIRT_ERROR_INVALID_ARGUMENT, "clamp must not be negative");
@@ -2159,18 +2179,59 @@ inline uint32_t waitingRoom(const minirt_job* job) {
     return waits ? job->desc.max_depth + waits - 1 : 0;
 }
 
+inline bool sharesTrees(const minirt_job* job) {
+    return job->desc.integrator == MINIRT_INTEGRATOR_WHITTED_SHARED;
+}
+
+/* Groups of the kernel whitted_shared: more than a device runs at once; each takes pixels until there are no more. */
+constexpr uint32_t kMostSharedGroups = 2048;
+
+/* Places of a subgroup's ring for each of its lanes: as many as wait on a pixel's own list, and some for what all lanes leave at once. */
+inline uint32_t ringPlaces(const minirt_job* job) {
+    return larger(waitingRoom(job) + 4u, 16u);
+}
+
+/* Bytes of the kernel whitted_shared (shaders/whitted/shared_work.glsl): those that are zero when a dispatch begins, for so many blocks, and all. */
+inline VkDeviceSize sharedZeroBytes(uint32_t blocks) {
+    return (MINIRT_SHARED_COUNTER_WORDS + MINIRT_SHARED_QUEUE + VkDeviceSize(blocks) * kBlockPixels * MINIRT_SHARED_SUM_WORDS) *
+           4;
+}
+
+inline VkDeviceSize sharedBytes(const minirt_job* job, uint32_t blocks) {
+    const VkDeviceSize segments =
+        MINIRT_SHARED_QUEUE + VkDeviceSize(smaller(blocks, kMostSharedGroups)) * kBlockPixels * ringPlaces(job);
+    return sharedZeroBytes(blocks) + segments * MINIRT_SHARED_SEGMENT_WORDS(job->scene->desc.volume_capacity) * 4;
+}
+
 /* Words of saved state a pixel; the layout is in shaders/common/suspend.glsl and the kernel. */
 inline uint32_t stateWords(const minirt_job* job) {
     const minirt_scene* s = job->scene;
     const uint32_t volumes = s->desc.volume_capacity;
     const uint32_t ray = MINIRT_TRAVERSAL_WORDS + s->desc.bvh_depth;
-    if (job->desc.integrator != MINIRT_INTEGRATOR_WHITTED) return MINIRT_PATH_WORDS(volumes) + ray;
+    if (job->desc.integrator == MINIRT_INTEGRATOR_PATH || job->desc.integrator == MINIRT_INTEGRATOR_WAVEFRONT)
+        return MINIRT_PATH_WORDS(volumes) + ray;
     return MINIRT_WALK_WORDS(volumes) + ray + waitingRoom(job) * MINIRT_SEGMENT_WORDS(volumes);
 }
 
 inline minirt_result ensureBuffer(minirt_scene* s, uint32_t binding, VkDeviceSize size, VkBufferUsageFlags usage) {
     if (s->buffers[binding].size >= size) return MINIRT_OK;
     return createBuffer(s->context, size, usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::device, s->buffers[binding]);
+}
+
+/* The state of as many blocks as a dispatch may take. */
+inline minirt_result allocateState(minirt_job* job) {
+    const minirt_context* c = job->scene->context;
+    VkDeviceSize budget =
+        c->info.is_cpu ? VkDeviceSize(64) << 20 : smaller<VkDeviceSize>(VkDeviceSize(1) << 30, c->info.memory_bytes / 8);
+    budget = smaller<VkDeviceSize>(budget, c->limits.maxStorageBufferRange);
+    const VkDeviceSize blockBytes = VkDeviceSize(stateWords(job)) * kBlockPixels * 4;
+    uint32_t blocks = smaller(job->blockCount, c->limits.maxComputeWorkGroupCount[0]);
+    while (sharesTrees(job) && blocks > 1 && sharedBytes(job, blocks) > budget) blocks = (blocks + 1) / 2;
+    if (!sharesTrees(job))
+        blocks = static_cast<uint32_t>(smaller<VkDeviceSize>(larger<VkDeviceSize>(budget / blockBytes, 1), blocks));
+    job->stateBlocks = blocks;
+    if (!sharesTrees(job)) return ensureBuffer(job->scene, MINIRT_BINDING_STATE, blocks * blockBytes, 0);
+    return ensureBuffer(job->scene, MINIRT_BINDING_STATE, sharedBytes(job, blocks), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
 inline minirt_result allocateJobBuffers(minirt_job* job) {
@@ -2182,14 +2243,7 @@ inline minirt_result allocateJobBuffers(minirt_job* job) {
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED, "the image is too large for this device");
     if (minirt_result r = ensureBuffer(s, MINIRT_BINDING_FILM, pixels * 16, usage)) return r;
     if (minirt_result r = ensureBuffer(s, MINIRT_BINDING_RAY_COUNTS, pixels * 8, usage)) return r;
-    const VkDeviceSize blockBytes = VkDeviceSize(stateWords(job)) * kBlockPixels * 4;
-    VkDeviceSize budget =
-        c->info.is_cpu ? VkDeviceSize(64) << 20 : smaller<VkDeviceSize>(VkDeviceSize(1) << 30, c->info.memory_bytes / 8);
-    budget = smaller<VkDeviceSize>(budget, c->limits.maxStorageBufferRange);
-    const VkDeviceSize fits = larger<VkDeviceSize>(budget / blockBytes, 1);
-    job->stateBlocks = static_cast<uint32_t>(
-        smaller<VkDeviceSize>(smaller<VkDeviceSize>(fits, job->blockCount), c->limits.maxComputeWorkGroupCount[0]));
-    if (minirt_result r = ensureBuffer(s, MINIRT_BINDING_STATE, job->stateBlocks * blockBytes, 0)) return r;
+    if (minirt_result r = allocateState(job)) return r;
     if (job->desc.integrator != MINIRT_INTEGRATOR_WAVEFRONT) return MINIRT_OK;
     const VkDeviceSize words = MINIRT_QUEUE_COUNT * (MINIRT_QUEUE_HEADER_WORDS + VkDeviceSize(job->stateBlocks) * kBlockPixels);
     return ensureBuffer(s, MINIRT_BINDING_QUEUES, words * 4,
@@ -2200,7 +2254,8 @@ inline void setFrame(minirt_job* job) {
     const minirt_render_desc& d = job->desc;
     const minirt_region& region = d.region;
     const bool queues = d.integrator == MINIRT_INTEGRATOR_WAVEFRONT;
-    job->frame.size = {d.width, d.height, queues ? job->stateBlocks * kBlockPixels : waitingRoom(job), 0};
+    const uint32_t room = queues ? job->stateBlocks * kBlockPixels : sharesTrees(job) ? ringPlaces(job) : waitingRoom(job);
+    job->frame.size = {d.width, d.height, room, 0};
     job->frame.region = {region.x, region.y, region.x + region.width, region.y + region.height};
     job->frame.up.w = d.clamp;
     job->frame.position.w = larger(d.throughput_cutoff, 0.0f);
@@ -2273,6 +2328,22 @@ inline void recordWavefront(minirt_job* job, VkCommandBuffer commands, uint32_t 
     job->frame = frame;
 }
 
+/* The kernel whitted_shared over so many blocks, then their pixels to the film. */
+inline void recordShared(minirt_job* job, VkCommandBuffer commands, uint32_t blocks) {
+    minirt_context* c = job->scene->context;
+    const minirt_frame frame = job->frame;
+    job->frame.blocks.w = blocks * kBlockPixels;
+    if (frame.sampling.w == 0) {
+        c->vk.CmdFillBuffer(commands, job->scene->buffers[MINIRT_BINDING_STATE].buffer, 0, sharedZeroBytes(blocks), 0);
+        memoryBarrier(c, commands);
+    }
+    recordKernel(job, commands, 0, smaller(blocks, kMostSharedGroups));
+    memoryBarrier(c, commands);
+    job->frame.sampling.w = 2;
+    recordKernel(job, commands, 0, blocks);
+    job->frame = frame;
+}
+
 /* One pass over `groups` blocks: begun, or gone on with where frame.sampling.w says so. */
 inline void recordDispatch(minirt_job* job, VkCommandBuffer commands, uint32_t groups) {
     minirt_scene* s = job->scene;
@@ -2280,6 +2351,8 @@ inline void recordDispatch(minirt_job* job, VkCommandBuffer commands, uint32_t g
     c->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, s->pipelineLayout, 0, 1, &s->descriptorSet, 0, nullptr);
     if (job->desc.integrator == MINIRT_INTEGRATOR_WAVEFRONT)
         recordWavefront(job, commands, groups);
+    else if (sharesTrees(job))
+        recordShared(job, commands, groups);
     else
         recordKernel(job, commands, 0, groups);
     memoryBarrier(c, commands);
@@ -2364,6 +2437,9 @@ inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     if (job->desc.integrator == MINIRT_INTEGRATOR_WAVEFRONT && !c->hasBallots)
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
                     "the wavefront needs subgroup ballots, which this device lacks; use the integrator 'path'");
+    if (sharesTrees(job) && !c->sharesTrees)
+        return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
+                    "'whitted_shared' takes a GPU with subgroup ballots; bake the scene with the integrator 'whitted' too");
     if (minirt_result r = activateIntegrator(s, job->desc.integrator)) return r;
     const minirt_region& region = job->desc.region;
     job->blockCount = ((region.width + 7) / 8) * ((region.height + 7) / 8);

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "error.hpp"
 
 namespace minirtc {
 namespace {
@@ -80,6 +82,18 @@ std::string megabytes(size_t bytes) {
     return text;
 }
 
+/// What the blob is for. Throws Error.
+std::vector<Integrator> integratorsOf(const BakeOptions& options, const Scene& scene) {
+    std::vector<Integrator> integrators = scene.render.integrators;
+    if (options.onlyDefault) integrators = {scene.render.integrator};
+    if (!options.shareTrees) return integrators;
+    if (std::none_of(integrators.begin(), integrators.end(), followsTrees))
+        throw Error("--share-trees is for the integrator 'whitted', which the blob does not get", "leave it out");
+    if (std::find(integrators.begin(), integrators.end(), Integrator::whittedShared) == integrators.end())
+        integrators.push_back(Integrator::whittedShared);
+    return integrators;
+}
+
 }  // namespace
 
 int bake(const BakeOptions& options) {
@@ -89,8 +103,7 @@ int bake(const BakeOptions& options) {
     Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
     const PreparedScene prepared = prepareScene(options.scene, {options.layout, options.bvh, options.threads}, diagnostics);
     const auto& [scene, geometry, bvh, nodes, volumes] = prepared;
-    const std::vector<Integrator> integrators =
-        options.onlyDefault ? std::vector<Integrator>{scene.render.integrator} : scene.render.integrators;
+    const std::vector<Integrator> integrators = integratorsOf(options, scene);
     const Variant variant = chooseVariant(prepared, integrators, options.choices);
     KernelCompiler ownCompiler(options.threads);
     KernelCompiler& compiler = options.compiler ? *options.compiler : ownCompiler;

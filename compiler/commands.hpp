@@ -12,6 +12,7 @@ struct BakeOptions {
     bool explain = false;
     Choices choices;
     bool onlyDefault = false;  // kernels of the scene's own integrator alone
+    bool shareTrees = false;   // and Whitted's tracer that shares trees
     LayoutChoice layout = LayoutChoice::automatic;
     BvhQuality bvh = BvhQuality::high;
     unsigned threads = 0;     // 0: all cores

@@ -76,7 +76,12 @@ const std::vector<std::string> kParts = {
 };
 
 /// What Whitted's tracer has beyond them.
-const std::vector<std::string> kWhittedParts = {"whitted/walk.glsl", "levers/weak_rays.glsl"};
+const std::vector<std::string> kWhittedParts = {"whitted/walk.glsl", "levers/weak_rays.glsl", "whitted/own_list.glsl",
+                                                "whitted/tree.glsl"};
+
+/// The same where lanes share the tree.
+const std::vector<std::string> kSharedParts = {"whitted/walk.glsl", "levers/weak_rays.glsl", "whitted/shared_work.glsl",
+                                               "whitted/tree.glsl"};
 
 /// What the path tracers have beyond them.
 const std::vector<std::string> kPathParts = {
@@ -167,7 +172,7 @@ Kernel compileSource(const KernelJob& job, const std::string& source) {
     kernel.bindings = compiled.bindings;
     kernel.spirv = optimise(job.name, compiled.spirv);
     // One a level of depth, and a dispersed ray's further channels.
-    kernel.waits = job.name == "whitted" && job.effects.splits() ? job.effects.channels() : 0;
+    kernel.waits = job.name.rfind("whitted", 0) == 0 && job.effects.splits() ? job.effects.channels() : 0;
     return kernel;
 }
 
@@ -184,7 +189,9 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
     source += "#define VOLUME_CAPACITY " + std::to_string(effects.volumeCapacity) + "\n";
     std::vector<std::string> parts = kParts;
     if (name.rfind("rays", 0) == 0) parts.push_back("common/query.glsl");
-    const std::vector<std::string>& further = name == "whitted" ? kWhittedParts : kPathParts;
+    const std::vector<std::string>& further = name == "whitted"          ? kWhittedParts
+                                              : name == "whitted_shared" ? kSharedParts
+                                                                         : kPathParts;
     parts.insert(parts.end(), further.begin(), further.end());
     parts.push_back("kernels/" + name + ".comp");
     for (const std::string& part : parts) source += "#line 1 \"" + part + "\"\n" + shaderLibrary().at(part) + "\n";
@@ -193,6 +200,7 @@ std::string composeKernel(const std::string& name, const EffectSet& effects) {
 
 std::vector<std::string> kernelsOf(Integrator integrator, const EffectSet& effects) {
     if (integrator == Integrator::whitted) return {"whitted"};
+    if (integrator == Integrator::whittedShared) return {"whitted_shared"};
     if (integrator == Integrator::path) return {"path"};
     std::vector<std::string> names = {"wave_generate", "wave_closest", "wave_hit", "wave_accumulate"};
     const auto any = [&](std::initializer_list<Effect> wanted) {

@@ -208,9 +208,8 @@ std::vector<std::string> definesOf(const LeverSettings& settings) {
 }
 
 Applicability applies(const Lever& lever, const EffectSet& effects, const std::vector<Integrator>& integrators) {
-    const auto isWhitted = [](Integrator one) { return one == Integrator::whitted; };
-    const bool whitted = std::any_of(integrators.begin(), integrators.end(), isWhitted);
-    const bool paths = !std::all_of(integrators.begin(), integrators.end(), isWhitted);
+    const bool whitted = std::any_of(integrators.begin(), integrators.end(), followsTrees);
+    const bool paths = !std::all_of(integrators.begin(), integrators.end(), followsTrees);
     const bool ofWhitted = lever.name == "cutoff" || lever.name == "weak_rays";
     if (ofWhitted && !whitted) return {false, "the scene does not ask for Whitted's tracer"};
     if (lever.name == "light_sampling" && !paths) return {false, "nothing traces paths"};

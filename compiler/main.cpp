@@ -35,6 +35,10 @@ void addBake(CLI::App& app, BakeOptions& options, std::vector<std::string>& sett
     bake->add_flag("--explain", options.explain, "Print each effect, in or out of the kernels, and why");
     bake->add_flag("--only-default", options.onlyDefault,
                    "Kernels of the scene's own integrator alone (default: of all that can draw it)");
+    bake->add_flag(
+        "--share-trees", options.shareTrees,
+        "Also a kernel with which a GPU's lanes share the trees of Whitted's tracer: the same picture, sooner where some "
+        "trees are long, later where none is");
     bake->add_flag("--all-effects", options.choices.allEffects, "Compile every effect into the kernels, called for or not");
     bake->add_option("--without", options.choices.without, "Leave an effect out that the scene does not call for; repeatable")
         ->allow_extra_args(false);

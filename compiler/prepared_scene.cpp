@@ -6,7 +6,7 @@ namespace minirtc {
 namespace {
 
 bool tracesPaths(const std::vector<Integrator>& integrators) {
-    return std::any_of(integrators.begin(), integrators.end(), [](Integrator one) { return one != Integrator::whitted; });
+    return std::any_of(integrators.begin(), integrators.end(), [](Integrator one) { return !followsTrees(one); });
 }
 
 /// What passed every check of the inputs must pass the runtime's too; numbers that overflow only in combination end here.
@@ -53,7 +53,7 @@ Variant chooseVariant(const PreparedScene& prepared, const std::vector<Integrato
 std::vector<KernelJob> kernelJobs(const Variant& variant, const std::vector<Integrator>& integrators) {
     std::vector<KernelJob> jobs;
     for (const Integrator integrator : integrators) {
-        const EffectSet& effects = integrator == Integrator::whitted ? variant.whitted : variant.effects;
+        const EffectSet& effects = followsTrees(integrator) ? variant.whitted : variant.effects;
         for (const std::string& name : kernelsOf(integrator, effects)) jobs.push_back({name, effects});
     }
     return jobs;

@@ -194,7 +194,12 @@ enum class Shadows { byModel, transmissive, opaque };
 /// How light of different wavelengths parts where it refracts: as three channels with an index each, or as wavelengths, some a sample.
 enum class DispersionMode { rgb, spectral };
 
-enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2 };
+enum class Integrator : uint32_t { whitted = 0, path = 1, wavefront = 2, whittedShared = 3 };
+
+/// Whether an integrator follows trees of rays; the others trace paths.
+inline bool followsTrees(Integrator integrator) {
+    return integrator == Integrator::whitted || integrator == Integrator::whittedShared;
+}
 
 /// How much the samples of a pixel count by where they lie.
 enum class Filter : uint32_t { box = 0, tent = 1, gaussian = 2 };

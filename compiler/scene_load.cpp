@@ -49,7 +49,7 @@ Background readBackground(SceneFile& file, const JsonValue& value, Scene& scene)
     return background;
 }
 
-const std::vector<std::string> kIntegrators = {"whitted", "path", "wavefront"};
+const std::vector<std::string> kIntegrators = {"whitted", "path", "wavefront", "whitted_shared"};
 
 Integrator integratorNamed(const std::string& name) {
     return static_cast<Integrator>(std::find(kIntegrators.begin(), kIntegrators.end(), name) - kIntegrators.begin());
@@ -246,7 +246,7 @@ void readObjects(SceneFile& file, const JsonObject& root, Scene& scene) {
 
 /// What the scene asks for that its integrator does without.
 void warnOfIdleKeys(const SceneFile& file, const Scene& scene, bool lightsWithSize) {
-    const bool whitted = scene.render.integrator == Integrator::whitted;
+    const bool whitted = followsTrees(scene.render.integrator);
     if (!anythingShines(scene))
         file.diagnostics.warn({file.path}, "nothing shines", "add 'lights' or a 'background', or the picture stays black");
     else if (whitted && lightsWithSize && scene.lights.empty())

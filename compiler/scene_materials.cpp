@@ -226,12 +226,12 @@ bool isTextured(const Material& m) {
 
 void leaveWhittedOut(Scene& scene, const SourceLocation& location, const std::string& what, const std::string& hint) {
     RenderDefaults& render = scene.render;
-    if (render.integrator == Integrator::whitted)
-        throw Error(location, "the integrator 'whitted' cannot draw " + what, hint + ", or draw with \"integrator\": \"path\"");
-    if (render.uses(Integrator::whitted) && render.integratorsGiven)
-        throw Error(location, "the integrator 'whitted' cannot draw " + what, hint + ", or leave it out of 'integrators'");
     auto& all = render.integrators;
-    all.erase(std::remove(all.begin(), all.end(), Integrator::whitted), all.end());
+    if (followsTrees(render.integrator))
+        throw Error(location, "the integrator 'whitted' cannot draw " + what, hint + ", or draw with \"integrator\": \"path\"");
+    if (std::any_of(all.begin(), all.end(), followsTrees) && render.integratorsGiven)
+        throw Error(location, "the integrator 'whitted' cannot draw " + what, hint + ", or leave it out of 'integrators'");
+    all.erase(std::remove_if(all.begin(), all.end(), followsTrees), all.end());
 }
 
 bool boundsVolume(const Material& material) {

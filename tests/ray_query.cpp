@@ -181,7 +181,11 @@ void refuseDeviceMemory(minirt_context* context) {
 }
 
 void denyBallots(minirt_context* context) {
-    context->hasBallots = false;
+    context->hasBallots = context->sharesTrees = false;
+}
+
+void allowSharedTrees(minirt_context* context) {
+    context->sharesTrees = true;
 }
 
 void limitTexels(minirt_context* context, uint32_t texels) {

@@ -30,6 +30,9 @@ void refuseDeviceMemory(minirt_context* context);
 /// As if the device had no ballots in subgroups.
 void denyBallots(minirt_context* context);
 
+/// Lets the kernel whitted_shared run where it would not: on a CPU device, for work that no loop of it is too long for.
+void allowSharedTrees(minirt_context* context);
+
 /// As if the device took no more in a texel buffer.
 void limitTexels(minirt_context* context, uint32_t texels);
 

@@ -9,8 +9,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<FrameResult> benchFrames(Stage& stage, const FrameOptions& options) {
-    const std::pair<const char*, minirt_integrator> integrators[] = {
-        {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
+    const std::pair<const char*, minirt_integrator> integrators[] = {{"whitted", MINIRT_INTEGRATOR_WHITTED},
+                                                                     {"path", MINIRT_INTEGRATOR_PATH},
+                                                                     {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT},
+                                                                     {"whitted_shared", MINIRT_INTEGRATOR_WHITTED_SHARED}};
     const bool cpu = stage.device().is_cpu != 0;
     std::vector<FrameResult> results;
     std::vector<Contender> contenders;

@@ -74,7 +74,7 @@ Baker::Baker(const std::string& sceneFile) {
     for (const std::string& warning : diagnostics.warnings) std::cerr << warning << "\n";
     const minirtc::RenderDefaults& render = prepared_.scene.render;
     integrators_ = render.integrators;
-    if (render.integrator == minirtc::Integrator::whitted) integrators_ = {render.integrator};
+    if (minirtc::followsTrees(render.integrator)) integrators_ = {minirtc::Integrator::whitted};
     std::string pattern = (std::filesystem::temp_directory_path() / "minirt-cost-XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw std::runtime_error(pattern + ": cannot be made; is there room for temporary files?");
     folder_ = pattern;
@@ -88,7 +88,7 @@ Baker::~Baker() {
 std::vector<Lever> Baker::levers() const {
     const auto& [scene, geometry, bvh, nodes, volumes] = prepared_;
     // What the scene asks for: another integrator is a lever itself, and moves alone.
-    const bool paths = scene.render.integrator != minirtc::Integrator::whitted;
+    const bool paths = !minirtc::followsTrees(scene.render.integrator);
     const minirtc::EffectSet effects = minirtc::analyseEffects(scene, geometry, volumes, false, paths);
     std::vector<Lever> levers;
     for (const minirtc::Lever& lever : minirtc::levers()) {

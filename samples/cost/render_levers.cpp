@@ -141,7 +141,7 @@ size_t kernelBytes(const std::string& path, minirt_integrator integrator) {
 
 minirt_integrator defaultIntegrator(const BlobFacts& facts, bool cpuDevice) {
     const auto own = static_cast<minirt_integrator>(facts.scene.integrator);
-    if (own == MINIRT_INTEGRATOR_WHITTED) return own;
+    if (own == MINIRT_INTEGRATOR_WHITTED || own == MINIRT_INTEGRATOR_WHITTED_SHARED) return MINIRT_INTEGRATOR_WHITTED;
     const minirt_integrator faster = cpuDevice ? MINIRT_INTEGRATOR_WAVEFRONT : MINIRT_INTEGRATOR_PATH;
     return facts.has(faster) ? faster : own;
 }

@@ -46,8 +46,10 @@ void addOptions(CLI::App& app, Options& o) {
                    "Of Whitted's tracer: rays are weak that carry no more than this share of the light; 0: none is (default: the "
                    "scene's)")
         ->check(CLI::Range(0.0f, 1.0f));
-    const std::map<std::string, minirt_integrator> integrators = {
-        {"whitted", MINIRT_INTEGRATOR_WHITTED}, {"path", MINIRT_INTEGRATOR_PATH}, {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT}};
+    const std::map<std::string, minirt_integrator> integrators = {{"whitted", MINIRT_INTEGRATOR_WHITTED},
+                                                                  {"path", MINIRT_INTEGRATOR_PATH},
+                                                                  {"wavefront", MINIRT_INTEGRATOR_WAVEFRONT},
+                                                                  {"whitted_shared", MINIRT_INTEGRATOR_WHITTED_SHARED}};
     app.add_option_function<std::string>(
            "--integrator", [&o, integrators](const std::string& name) { o.integrator = integrators.at(name); },
            "How to render (default: the scene's)")

@@ -2,57 +2,18 @@
 // Depth first: one ray is in flight, the other branch waits on the pixel's list. Each pass of the loop traces one ray, so there
 // is one trace site. A pixel that spends its budget of steps saves where it is and goes on in the next dispatch.
 
-/// The shadow ray goes on behind a surface that is clear or hidden, tinted; it ends there when too little of its light is left.
-Traversal passShadow(inout TreeWalk walk, Traversal ray, Encounter e) {
-    vec3 share = transmittance(e.boundary.from, ray.t);
-    if (!e.boundary.skipped) share *= passingShare(e.material, ray.direction, dot(ray.direction, e.n) < 0.0 ? e.n : e.ng, e.eta);
-    walk.unshadowed *= share;
-    walk.shadowVolumes = e.boundary.transmitted;
-    LightSample light = sampleLight(walk.light - 1u, e.surface.p);
-    Traversal onwards = beginTraversal(belowSurface(e), ray.direction, light.distance, false);
-    if (importance(walk.unshadowed) <= 0.0) onwards.node = NODE_NONE;
-    return onwards;
-}
-
 /// Follows one of the rays that leave the surface, puts the other on the list; with none, takes one from the list.
 Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Encounter e) {
-    Traversal ray = beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, false);
-    Segment from = walk.segment;
-    Scatter branches = scatter(e.material, from.direction, e.ng, dot(from.direction, e.n) < 0.0 ? e.n : e.ng, e.eta);
-    bool straight = e.boundary.skipped;  // costs no depth
-    vec3 reflectThroughput = straight ? vec3(0.0) : from.throughput * branches.reflectWeight;
-    vec3 refractThroughput = straight ? from.throughput : from.throughput * branches.refractWeight;
-    bool deeper = hit && (straight || from.depth < frame.sampling.z);
-    bool reflects = deeper && carriesOn(reflectThroughput, walk, MIRROR_RAY);
-    bool refracts = deeper && carriesOn(refractThroughput, walk, REFRACTED_RAY);
-    Segment reflected = Segment(aboveSurface(e), branches.reflected, reflectThroughput, from.depth + 1u, from.channel, e.boundary.reflected);
-    Segment refracted = Segment(belowSurface(e), straight ? from.direction : branches.refracted, refractThroughput,
-                                straight ? from.depth : from.depth + 1u, from.channel, e.boundary.transmitted);
-    bool room = walk.waiting < frame.size.z;
-    if (reflects && refracts && room) {
-        uint word = waitingWord(walk.waiting++);
-        putSegment(slot, word, reflected);
-    }
-    if (reflects && refracts && !room) atomicAdd(counters.segment_overflow, 1u);
-    if (refracts) return traceSegment(walk, refracted);
-    if (reflects) return traceSegment(walk, reflected);
+    Branches leaving = branchesAt(walk, hit, e);
+    if (leaving.reflects && leaving.refracts) holdOrCount(slot, walk, leaving.reflected);
+    if (leaving.refracts) return traceSegment(walk, leaving.refracted);
+    if (leaving.reflects) return traceSegment(walk, leaving.reflected);
     walk.phase = PHASE_DONE;
     if (walk.waiting > 0u) {
         uint word = waitingWord(--walk.waiting);
         return traceSegment(walk, takeSegment(slot, word));
     }
-    return ray;
-}
-
-/// A segment has ended: what its medium takes and adds on the way, then the background or what shines by itself.
-void arrive(inout TreeWalk walk, bool hit, Encounter e) {
-    uint medium = hit ? e.boundary.from : mediumAround(walk.segment.volumes);
-    float distance = hit ? walk.hitT : MINIRT_RAY_END;
-    walk.radiance += walk.segment.throughput * inscattered(medium, distance);
-    walk.segment.throughput *= transmittance(medium, distance);
-    vec3 shine = hit ? (e.boundary.skipped ? vec3(0.0) : emission(e.material, e.entering, e.surface.uv)) : backgroundRadiance(walk.segment.direction);
-    walk.radiance += walk.segment.throughput * shine;
-    walk.light = e.boundary.skipped ? lightCount() : 0u;
+    return beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, false);
 }
 
 void main() {
@@ -89,7 +50,7 @@ void main() {
         Encounter e = encounterAt(passing ? ray.origin : walk.segment.origin, passing ? ray.direction : walk.segment.direction,
                                   hit ? slot : 0u, passing ? ray.t : walk.hitT, clear ? walk.shadowVolumes : walk.segment.volumes, walk.segment.channel);
         if (hit && e.boundary.overflow) atomicAdd(counters.volume_overflow, 1u);
-        if (arrived && hit) divideLight(task, walk, e);
+        if (arrived && hit) divideLight(task.slot, task.pixel, walk, e);
         if (arrived) arrive(walk, hit, e);
         if (walk.phase == PHASE_SHADOW && !stopped) walk.radiance += walk.unshadowed * transmittance(mediumAround(walk.shadowVolumes), ray.t);
         if (clear) {

@@ -101,23 +101,6 @@ Traversal traceToCamera(inout TreeWalk walk) {
     return ray;
 }
 
-/// All light together that meets a medium which disperses goes on as one of its channels. The others wait, to come here by themselves.
-void divideLight(PixelTask task, inout TreeWalk walk, inout Encounter e) {
-    if (walk.segment.channel != 0u || !dividesLight(e.boundary)) return;
-    Segment whole = walk.segment;
-    UNROLL for (int k = int(CHANNELS) - 1; k >= 0; k--) {
-        walk.segment.channel = channelAt(uint(k), task.pixel);
-        walk.segment.throughput = whole.throughput * channelShare(walk.segment.channel);
-        bool room = walk.waiting < frame.size.z;
-        if (k > 0 && room) {
-            uint word = waitingWord(walk.waiting++);
-            putSegment(task.slot, word, walk.segment);
-        }
-        if (k > 0 && !room) atomicAdd(counters.segment_overflow, 1u);
-    }
-    e.eta = iorRatio(e.boundary, e.material, e.entering, walk.segment.channel);
-}
-
 /// Light that adds less than this share of itself is not worth a shadow ray: a unit in the last place of what other lights add.
 const float NEGLIGIBLE_SHARE = 5.9604644775390625e-8;
 
