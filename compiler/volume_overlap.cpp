@@ -94,30 +94,33 @@ std::optional<bool> isInsideBehind(const Primitive& primitive, const Surface& ow
     return std::nullopt;
 }
 
-/// Looks around a point where edges touch for one that is in both volumes.
-bool shareSpaceNear(const glm::dvec3& point, double size, const Surface& a, const Surface& b) {
+/// Asks of points around one where edges touch.
+bool anyNear(const glm::dvec3& point, double size, const std::function<bool(const glm::dvec3&)>& question) {
     for (int i = 0; i < 27; ++i) {
         const int x = i % 3, y = i / 3 % 3, z = i / 9;
         const glm::ivec3 step(x - 1, y - 1, z - 1);
         // Turned a little out of the axes, along which edges tend to run.
         const glm::dvec3 direction = glm::dvec3(step) + glm::dvec3(0.0713, -0.1319, 0.1931);
-        const glm::dvec3 near = point + direction * (kDepths[0] * size);
-        if (isInside(a, near).value_or(false) && isInside(b, near).value_or(false)) return true;
+        if (question(point + direction * (kDepths[0] * size))) return true;
     }
     return false;
 }
 
-double sizeOf(const Primitive& triangle) {
-    return std::sqrt(glm::length(areaVector(triangleOf(triangle))));
+/// Of the smaller of two triangles.
+double sizeOf(const Primitive& a, const Primitive& b) {
+    return std::sqrt(std::min(glm::length(areaVector(triangleOf(a))), glm::length(areaVector(triangleOf(b)))));
 }
 
 /// crossing, touching (in no more than points, edges and faces from outside) or apart.
 Meeting meetSurfaces(const Surface& a, const Surface& b) {
     bool touch = false;
+    const auto inBoth = [&](const glm::dvec3& point) {
+        return isInside(a, point).value_or(false) && isInside(b, point).value_or(false);
+    };
     const bool cross = anyPair(a, b, 0, [&](const Primitive& p, const Primitive& q) {
         const Contact contact = meetPrimitives(p, q);
         touch = touch || contact.meeting != Meeting::apart;
-        if (contact.meeting == Meeting::touching) return shareSpaceNear(contact.point, std::min(sizeOf(p), sizeOf(q)), a, b);
+        if (contact.meeting == Meeting::touching) return anyNear(contact.point, sizeOf(p, q), inBoth);
         return contact.meeting == Meeting::crossing || contact.meeting == Meeting::sameFront;
     });
     return cross ? Meeting::crossing : touch ? Meeting::touching : Meeting::apart;
@@ -179,9 +182,11 @@ bool isContent(const Surface& thing, const Surface& volume) {
 }
 
 bool overlapsItself(const Solid& solid, unsigned threads) {
-    const auto cross = [](const Primitive& p, const Primitive& q) {
-        const Meeting meeting = meetPrimitives(p, q).meeting;
-        return meeting == Meeting::crossing || meeting == Meeting::sameFront;
+    const auto isInTwice = [&](const glm::dvec3& point) { return solid.surface.windingAt(point).value_or(0) > 1; };
+    const auto cross = [&](const Primitive& p, const Primitive& q) {
+        const Contact contact = meetPrimitives(p, q);
+        if (contact.meeting == Meeting::touching) return anyNear(contact.point, sizeOf(p, q), isInTwice);
+        return contact.meeting == Meeting::crossing || contact.meeting == Meeting::sameFront;
     };
     if (anyPairWithin(solid.surface, cross, threads)) return true;
     return std::any_of(solid.shells.begin(), solid.shells.end(),

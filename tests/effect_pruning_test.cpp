@@ -1,151 +1,22 @@
-// What minirtc leaves out of a kernel is not missed, and what it puts in is needed: scenes that call for each effect, alone and beside others.
+// What minirtc leaves out of a kernel is not missed, and what it puts in is needed: scenes that call for each effect, alone and beside each other.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
-#include <random>
+#include <map>
 #include <set>
 
-#include "image_text.hpp"
+#include "effect_scenes.hpp"
+#include "generate.hpp"
 #include "render_scene.hpp"
-#include "scene_text.hpp"
+#include "scene_files.hpp"
 
 using namespace minirtc;
 using namespace test;
 
 namespace {
-
-/// What calls for an effect. In `objects`, @ stands for the x of its place.
-struct Part {
-    Effect effect;
-    std::string material;  // "name": {...}
-    std::string objects;
-    std::string light = "";
-    std::string more = "";  // members of the scene
-    bool path = false;      // needs the path tracer
-};
-
-std::string gem(const std::string& material, double scale = 0.5) {
-    return R"({"mesh":"gem.obj","material":")" + material + R"(","scale":)" + json(scale) + R"(,"translate":[@,0.6,0]})";
-}
-
-std::string card(const std::string& material) {
-    return R"({"mesh":"card.obj","material":")" + material + R"(","scale":0.5,"translate":[@,0.6,0.2]})";
-}
-
-const std::vector<Part>& parts() {
-    const std::string glass = R"({"model":"pbr","roughness":0,"transmission":1,"ior":1.5)";
-    const std::string overlap = gem("outer") + R"(,{"mesh":"gem.obj","material":"inner","scale":0.4,"translate":[@,0.9,0.1]})";
-    const std::string two = R"("outer":)" + glass + R"(},"inner":)" + glass + R"(,"attenuationColor":[0.9,0.4,0.2]})";
-    static const std::vector<Part> all = {
-        {Effect::spheres, R"("ball":{"model":"phong"})", R"({"sphere":{"center":[@,0.6,0],"radius":0.5},"material":"ball"})"},
-        {Effect::smoothNormals, R"("round":{"model":"phong"})",
-         R"({"mesh":"gem.obj","material":"round","smooth":true,"scale":0.5,"translate":[@,0.6,0]})"},
-        {Effect::textures, R"("photo":{"model":"pbr","baseColor":"paint.tga"})", card("photo")},
-        {Effect::checker, R"("a":{"model":"phong","diffuse":0.2},"board":{"model":"checker","a":"a","b":"floor","scale":0.25})",
-         card("board")},
-        {Effect::pointLights, "", gem("floor")},
-        {Effect::directionalLights, "", gem("floor"), R"({"type":"directional","direction":[1,-2,-1]})"},
-        {Effect::spotLights, "", gem("floor"), R"({"type":"spot","position":[-1,3,2],"direction":[1,-2,-2]})"},
-        {Effect::highlights, R"("shiny":{"model":"phong","specular":0.5,"shininess":5})", gem("shiny")},
-        {Effect::reflection, R"("mirror":{"model":"phong","diffuse":0,"reflect":0.8})", gem("mirror")},
-        {Effect::refraction, R"("clear":{"model":"phong","diffuse":0,"refract":0.8})", gem("clear")},
-        {Effect::fresnel, R"("glass":)" + glass + "}", gem("glass")},
-        {Effect::normalMaps, R"("bumpy":{"model":"pbr","normalTexture":"paint.tga"})", card("bumpy")},
-        {Effect::emission, R"("glow":{"model":"pbr","emissive":[1,0.5,0.2]})", gem("glow")},
-        {Effect::emissionMaps, R"("screen":{"model":"pbr","emissive":[1,1,1],"emissiveTexture":"paint.tga"})", card("screen")},
-        {Effect::alpha, R"("leaf":{"model":"pbr","baseColor":"paint.tga","alphaMode":"mask"})", card("leaf")},
-        {Effect::backgroundImage, "", gem("floor"), "", R"("background":{"image":"paint.tga"})"},
-        {Effect::thin, R"("sheet":)" + glass + R"(,"thin":true})", card("sheet")},
-        {Effect::nesting, two, overlap},
-        {Effect::parity, two, overlap, "", R"("nesting":"parity")"},
-        {Effect::selfOverlap, R"("gems":)" + glass + "}",
-         R"({"mesh":"gems.obj","material":"gems","scale":0.5,"translate":[@,0.6,0]})"},
-        {Effect::absorption, R"("amber":)" + glass + R"(,"attenuationColor":[0.9,0.5,0.1]})", gem("amber")},
-        {Effect::inscatter, R"("milk":)" + glass + R"(,"attenuationColor":[0.9,0.8,0.6],"inscatter":0.8})", gem("milk")},
-        {Effect::dispersion, R"("flint":)" + glass + R"(,"dispersion":2})", gem("flint")},
-        {Effect::spectral, R"("flint":)" + glass + R"(,"dispersion":2})", gem("flint"), "", R"("spectral")"},
-        {Effect::transmissiveShadows, R"("pane":)" + glass + "}", gem("pane")},
-        {Effect::areaLights, R"("lamp":{"model":"pbr","emissive":[4,4,4]})", gem("lamp"), "", "", true},
-        {Effect::environmentLight, "", gem("floor"), "", "", true},
-        {Effect::microfacets, R"("brass":{"model":"pbr","metallic":1,"roughness":0.4})", gem("brass"), "", "", true},
-        {Effect::roughTransmission, R"("frost":{"model":"pbr","roughness":0.4,"transmission":1,"ior":1.5})", gem("frost"), "", "",
-         true},
-        {Effect::surfaceMaps, R"("worn":{"model":"pbr","metallic":1,"roughness":1,"metallicRoughnessTexture":"paint.tga"})",
-         card("worn"), "", "", true},
-        {Effect::lens, "", gem("floor"), "", R"("aperture")", true},
-    };
-    return all;
-}
-
-std::string placed(std::string objects, double x) {
-    for (size_t at = objects.find('@'); at != std::string::npos; at = objects.find('@')) objects.replace(at, 1, json(x));
-    return objects;
-}
-
-/// Where the parts of a scene stand.
-constexpr double kPlaces[] = {0, -1, 1};
-constexpr size_t kMostParts = 3;
-
-/// A floor under a lamp with some parts side by side.
-std::string sceneOf(const std::vector<Part>& some) {
-    std::string materials = R"("floor":{"model":"phong","diffuse":0.6})";
-    std::string objects = floorOf("floor");
-    std::string lights = pointLight({2, 4, 3}, {20, 20, 20}, "inverse-square");
-    std::string members;
-    bool path = false, spectral = false, aperture = false, background = false;
-    for (size_t i = 0; i < some.size(); ++i) {
-        const Part& part = some[i];
-        if (!part.material.empty()) materials += "," + part.material;
-        objects += "," + placed(part.objects, kPlaces[i]);
-        if (!part.light.empty()) lights += "," + part.light;
-        path |= part.path;
-        spectral |= part.more == "\"spectral\"";
-        aperture |= part.more == "\"aperture\"";
-        background |= part.effect == Effect::backgroundImage;
-        if (!part.more.empty() && part.more.find(':') != std::string::npos) members += part.more + ",";
-    }
-    if (!background) members += R"("background":{"color":[0.2,0.3,0.4]},)";
-    const std::string integrator = path ? "path" : "whitted";
-    return "{" + members + R"("camera":{"position":[0.2,1.3,3.5],"target":[0,0.5,0],"vfov":40,"focusDistance":2,"aperture":)" +
-           (aperture ? "0.3" : "0") + R"(},"render":{"size":[16,16],"maxDepth":6,"integrators":[")" + integrator +
-           R"("],"dispersionMode":")" + (spectral ? "spectral" : "rgb") + R"("},"lights":[)" + lights + R"(],"materials":{)" +
-           materials + R"(},"objects":[)" + objects + "]}";
-}
-
-std::string namesOf(const std::vector<Part>& some) {
-    std::string names;
-    for (const Part& part : some) names += std::string(effectInfo(part.effect).name) + " ";
-    return names;
-}
-
-/// Two octahedra in one mesh, or one, and a card with texture coordinates, with a picture of all values and alphas.
-void writeFiles(const TemporaryDir& dir) {
-    const auto octahedron = [](double x, int first) {
-        std::string text;
-        for (int axis = 0; axis < 3; ++axis)
-            for (const double sign : {-1.0, 1.0}) {
-                glm::dvec3 p(x, 0, 0);
-                p[axis] += sign;
-                text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
-            }
-        for (int i = 0; i < 8; ++i) {
-            int a = first + (i & 1), b = first + 2 + (i >> 1 & 1), c = first + 4 + (i >> 2 & 1);
-            if (((i & 1) + (i >> 1 & 1) + (i >> 2 & 1)) % 2 == 0) std::swap(b, c);
-            text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
-        }
-        return text;
-    };
-    dir.write("gem.obj", octahedron(0, 1));
-    dir.write("gems.obj", octahedron(0, 1) + octahedron(0.5, 7));
-    dir.write("card.obj",
-              "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
-    dir.write("paint.tga", tga(4, 4, [](int x, int y) -> Rgba {
-                  return {static_cast<unsigned char>(60 + 50 * x), static_cast<unsigned char>(200 - 40 * y),
-                          static_cast<unsigned char>(120 + 30 * ((x + y) % 4)), static_cast<unsigned char>((x + y) % 2 * 255)};
-              }));
-}
 
 BakeOptions with(const std::vector<std::string>& without) {
     BakeOptions options;
@@ -172,13 +43,21 @@ std::vector<uint32_t> spirvOf(const std::filesystem::path& file) {
     return words;
 }
 
-/// Numbers that OpDecorate gives as a Binding.
-std::set<uint32_t> bindingsOf(const std::vector<uint32_t>& spirv) {
-    constexpr uint32_t kOpDecorate = 71, kBinding = 33;
+/// What a kernel declares.
+struct Declarations {
     std::set<uint32_t> bindings;
-    for (size_t i = 5; i < spirv.size() && spirv[i] >> 16; i += spirv[i] >> 16)
-        if ((spirv[i] & 0xffffu) == kOpDecorate && spirv[i + 2] == kBinding) bindings.insert(spirv[i + 3]);
-    return bindings;
+    size_t functions = 0;
+};
+
+Declarations declarationsOf(const std::vector<uint32_t>& spirv) {
+    constexpr uint32_t kOpFunction = 54, kOpDecorate = 71, kBinding = 33;
+    Declarations declared;
+    for (size_t i = 5; i < spirv.size() && spirv[i] >> 16; i += spirv[i] >> 16) {
+        const uint32_t operation = spirv[i] & 0xffffu;
+        declared.functions += operation == kOpFunction;
+        if (operation == kOpDecorate && spirv[i + 2] == kBinding) declared.bindings.insert(spirv[i + 3]);
+    }
+    return declared;
 }
 
 /// Whether a kernel with these effects may read a buffer.
@@ -211,42 +90,24 @@ bool mayRead(const EffectSet& effects, uint32_t binding) {
     }
 }
 
-void checkReadsWhatItNeeds(const std::filesystem::path& blob, const EffectSet& effects) {
-    for (const uint32_t binding : bindingsOf(spirvOf(blob))) {
+/// No buffer but those of its effects, and no function but main, which holds all others.
+void checkHoldsWhatItNeeds(const std::filesystem::path& blob, const EffectSet& effects) {
+    const Declarations declared = declarationsOf(spirvOf(blob));
+    CHECK(declared.functions == 1);
+    for (const uint32_t binding : declared.bindings) {
         CAPTURE(binding);
         CHECK(mayRead(effects, binding));
     }
 }
 
-EffectSet calledFor(const std::filesystem::path& scene, const std::vector<Part>& some) {
+EffectSet calledFor(const std::filesystem::path& scene, const Parts& some) {
     Diagnostics diagnostics;
     const EffectSet effects = factsOf(scene.string(), diagnostics).effects;
-    for (const Part& part : some) CHECK(effects.has(part.effect));
-    return effects;
-}
-
-/// Whether one scene can hold both: they are for one integrator and differ in their material.
-bool together(const Part& a, const Part& b) {
-    return a.path == b.path && (a.material.empty() || a.material != b.material);
-}
-
-/// All parts in as few scenes as hold them, whose neighbours are drawn once and for all.
-std::vector<std::vector<Part>> mixedParts() {
-    std::vector<Part> shuffled = parts();
-    std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
-    std::vector<std::vector<Part>> groups;
-    for (const Part& part : shuffled) {
-        const auto fits = [&](const std::vector<Part>& group) {
-            return group.size() < kMostParts &&
-                   std::all_of(group.begin(), group.end(), [&](const Part& other) { return together(part, other); });
-        };
-        const auto group = std::find_if(groups.begin(), groups.end(), fits);
-        if (group == groups.end())
-            groups.push_back({part});
-        else
-            group->push_back(part);
+    for (const Part& part : some) {
+        CAPTURE(namesOf({part}));
+        CHECK(effects.has(part.effect));
     }
-    return groups;
+    return effects;
 }
 
 /// Of pixels, the share with a channel that differs by more than a thousandth; and how much channels differ in the mean.
@@ -269,46 +130,166 @@ Difference differenceOf(const Picture& a, const Picture& b) {
     return difference;
 }
 
-/// The same bits on a processor. A GPU's compiler rounds other code otherwise, and a path that then takes another way is another sample of its pixel: on
-/// an H100 some bits differed, and no pixel by more than a thousandth.
-void checkSame(const GpuContext& gpu, const Picture& pruned, const Picture& full) {
-    if (gpu.isCpu()) {
-        CHECK(pruned == full);
-        return;
+/// Compares what kernels draw that differ in effects which no scene of theirs calls for.
+class Judge {
+public:
+    explicit Judge(const GpuContext& gpu) : exact_(gpu.isCpu()) {}
+    Judge(const Judge&) = delete;
+    Judge& operator=(const Judge&) = delete;
+    ~Judge() {
+        MESSAGE(pictures_, std::string(exact_ ? " pictures compared bit for bit" : " pictures compared"));
+        if (!exact_)
+            MESSAGE("at most ", 100 * most_.share, " % of the pixels differ by more than a thousandth, and channels by ",
+                    most_.mean, " in the mean");
     }
-    const Difference difference = differenceOf(pruned, full);
-    if (difference.share > 0) MESSAGE(100 * difference.share, " % of the pixels differ by more than rounding");
-    CHECK(difference.share <= 0.005);
-    CHECK(difference.mean <= 5e-4);
+
+    /// The same bits on a processor. A GPU's compiler rounds other code otherwise, and a path that then takes another way is another sample of its
+    /// pixel: on an H100 some bits differed, and no pixel by more than a thousandth.
+    void check(const Picture& pruned, const Picture& full) {
+        ++pictures_;
+        if (exact_) {
+            CHECK(pruned == full);
+            return;
+        }
+        const Difference difference = differenceOf(pruned, full);
+        CHECK(difference.share <= 0.005);
+        CHECK(difference.mean <= 5e-4);
+        most_ = {std::max(most_.share, difference.share), std::max(most_.mean, difference.mean)};
+    }
+
+private:
+    bool exact_;
+    size_t pictures_ = 0;
+    Difference most_;
+};
+
+/// Bakes scenes of parts, and draws each by a kernel with what it calls for and by one with every effect.
+class PruningTest {
+public:
+    explicit PruningTest(const GpuContext& gpu) : gpu_(gpu), judge_(gpu) { writeFilesOfParts(dir_); }
+
+    /// Returns the picture that both draw.
+    Picture check(const Parts& some, Tracer tracer) {
+        const auto pruned = bakeScene(dir_, sceneOf(some, tracer), "pruned", with({}));
+        const auto full = bakeScene(dir_, sceneOf(some, tracer), "full", withAll());
+        checkHoldsWhatItNeeds(pruned, calledFor(dir_.path() / "pruned.json", some));
+        CHECK(spirvOf(pruned).size() < spirvOf(full).size());
+        Picture picture = draw(pruned);
+        judge_.check(picture, draw(full));
+        return picture;
+    }
+
+    /// Also that the effect changes the picture, and costs code. Parity is another method of nesting, of less code.
+    void checkAlone(const Part& part) {
+        const Picture picture = check({part}, tracerOf({part}));
+        const auto lacking = bakeScene(dir_, sceneOf({part}, tracerOf({part})), "lacking", with({effectInfo(part.effect).name}));
+        if (part.effect != Effect::parity) CHECK(spirvOf(lacking).size() < spirvOf(dir_.path() / "pruned.mrt").size());
+        CHECK_FALSE(draw(lacking) == picture);
+    }
+
+private:
+    Picture draw(const std::filesystem::path& blob) const { return LoadedScene(gpu_, blob).render(); }
+
+    const GpuContext& gpu_;
+    const TemporaryDir dir_;
+    Judge judge_;
+};
+
+/// Each pair is in a scene that is drawn, or there is a reason why no scene can hold it.
+void checkPairs(Tracer tracer) {
+    GpuContext gpu;
+    if (!gpu) return;
+    PruningTest test(gpu);
+    std::set<std::pair<Effect, Effect>> drawn;
+    for (const Parts& group : groupsOfPairs(tracer)) {
+        CAPTURE(namesOf(group));
+        test.check(group, tracer);
+        for (const Part& a : group)
+            for (const Part& b : group) drawn.insert({a.effect, b.effect});
+    }
+    std::map<std::string, size_t> counts;
+    for (const Parts& pair : pairsOf(tracer)) {
+        CAPTURE(namesOf(pair));
+        const std::string reason = apart(pair[0], pair[1]);
+        CHECK((drawn.count({pair[0].effect, pair[1].effect}) > 0) == reason.empty());
+        ++counts[reason.empty() ? "drawn" : reason];
+    }
+    for (const auto& [what, count] : counts) MESSAGE("pairs: ", count, " ", what);
+}
+
+/// The same with nothing else in a scene.
+void checkEachPair(Tracer tracer) {
+    if (!std::getenv("MINIRT_EVERY_PAIR")) return skip("takes ten minutes; set MINIRT_EVERY_PAIR=1 to run it");
+    GpuContext gpu;
+    if (!gpu) return;
+    PruningTest test(gpu);
+    for (const Parts& pair : pairsOf(tracer)) {
+        CAPTURE(namesOf(pair));
+        if (apart(pair[0], pair[1]).empty()) test.check(pair, tracer);
+    }
+}
+
+/// By a kernel of the scene's own integrator.
+Picture drawPrepared(const GpuContext& gpu, const PreparedScene& prepared, const Choices& choices) {
+    static KernelCompiler compiler(0);
+    const std::vector<Integrator> own = {prepared.scene.render.integrator};
+    const Variant variant = chooseVariant(prepared, own, choices);
+    const std::vector<uint8_t> blob = finishBlob(prepared, variant, compiler.compile(kernelJobs(variant, own)));
+    const TemporaryDir dir;
+    minirt_render_desc desc = {};
+    desc.width = 32;
+    desc.height = 24;
+    desc.samples = 1;
+    return LoadedScene(gpu, dir.write("sample.mrt", {blob.begin(), blob.end()})).render(desc);
 }
 
 }  // namespace
 
-TEST_CASE("an effect that a scene calls for is seen where it is missing, and brings no more buffers than it reads") {
+TEST_CASE("there are parts for every effect but a layout") {
+    std::set<Effect> effects;
+    for (const Part& part : parts()) effects.insert(part.effect);
+    CHECK(effects.size() == parts().size());
+    CHECK(effects.size() == kEffectCount - 1);
+    CHECK(effects.count(Effect::floatNodes) == 0);
+}
+
+TEST_CASE("an effect is seen where it is missing, and where it is alone the others are not missed") {
     GpuContext gpu;
     if (!gpu) return;
-    const TemporaryDir dir;
-    writeFiles(dir);
+    PruningTest test(gpu);
     for (const Part& part : parts()) {
         CAPTURE(namesOf({part}));
-        const auto pruned = bakeScene(dir, sceneOf({part}), "pruned", with({}));
-        checkReadsWhatItNeeds(pruned, calledFor(dir.path() / "pruned.json", {part}));
-        const auto lacking = bakeScene(dir, sceneOf({part}), "lacking", with({effectInfo(part.effect).name}));
-        CHECK_FALSE(LoadedScene(gpu, lacking).render() == LoadedScene(gpu, pruned).render());
+        test.checkAlone(part);
     }
 }
 
-TEST_CASE("a kernel with what the scene calls for is smaller than one with every effect and draws the same bits") {
+TEST_CASE("in scenes with every pair of effects of Whitted's tracer, the others are not missed") {
+    checkPairs(Tracer::whitted);
+}
+
+TEST_CASE("in scenes with every pair of effects that needs the path tracer, the others are not missed") {
+    checkPairs(Tracer::path);
+}
+
+TEST_CASE("in a scene for each pair of effects of Whitted's tracer, the others are not missed") {
+    checkEachPair(Tracer::whitted);
+}
+
+TEST_CASE("in a scene for each pair of effects that needs the path tracer, the others are not missed") {
+    checkEachPair(Tracer::path);
+}
+
+TEST_CASE("in every sample scene, effects that it does not call for are not missed") {
     GpuContext gpu;
     if (!gpu) return;
     const TemporaryDir dir;
-    writeFiles(dir);
-    for (const std::vector<Part>& group : mixedParts()) {
-        CAPTURE(namesOf(group));
-        const auto pruned = bakeScene(dir, sceneOf(group), "pruned", with({}));
-        const auto full = bakeScene(dir, sceneOf(group), "full", withAll());
-        checkReadsWhatItNeeds(pruned, calledFor(dir.path() / "pruned.json", group));
-        CHECK(spirvOf(pruned).size() < spirvOf(full).size());
-        checkSame(gpu, LoadedScene(gpu, pruned).render(), LoadedScene(gpu, full).render());
+    samples::generate(dir.path());
+    Judge judge(gpu);
+    for (const auto& [name, text] : samples::sceneFiles()) {
+        CAPTURE(name);
+        Diagnostics diagnostics;
+        const PreparedScene prepared =
+            prepareScene((dir.path() / name).string(), {LayoutChoice::automatic, BvhQuality::fast}, diagnostics);
+        judge.check(drawPrepared(gpu, prepared, {}), drawPrepared(gpu, prepared, withAll().choices));
     }
 }

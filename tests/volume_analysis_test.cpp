@@ -681,12 +681,20 @@ TEST_CASE("a volume that overlaps itself") {
         builder.mesh("m", both(test::ball(2), test::ball(2), 0.5, {0.9, 0.1, 0}));
         CHECK(builder.volumes().selfOverlap == "m overlaps itself");
     }
+    SUBCASE("shells that cross from edge to edge") {
+        builder.mesh("m", both(test::ball(0), test::ball(0), 1, {1, 0, 0}));
+        CHECK(builder.volumes().selfOverlap == "m overlaps itself");
+    }
     SUBCASE("the same twice") {
         builder.mesh("m", both(box(), box(), 1, {}));
         CHECK(builder.volumes().selfOverlap == "m overlaps itself");
     }
     SUBCASE("shells side by side") {
         builder.mesh("m", both(test::ball(2), test::ball(2), 1, {3, 0, 0}));
+        CHECK(builder.volumes().selfOverlap.empty());
+    }
+    SUBCASE("shells with an edge in common") {
+        builder.mesh("m", both(box(), box(), 1, {1, 1, 0.5}));
         CHECK(builder.volumes().selfOverlap.empty());
     }
     SUBCASE("a ball in a bubble in a ball") {
