@@ -115,11 +115,12 @@ typedef struct minirt_uvec4 {
 #define MINIRT_TRAVERSAL_WORDS 10u
 #define MINIRT_SEGMENT_WORDS(volumes) (10u + (volumes))
 
-/* Words of the kernel whitted_shared (shaders/whitted/shared_work.glsl): counters, places of its queue, a segment with its pixel, sums of a pixel. */
+/* Words of the kernel whitted_shared (shaders/whitted/shared_work.glsl): counters, places of its queue, a segment with its pixel, sums of a pixel, a ring's own. */
 #define MINIRT_SHARED_COUNTER_WORDS 128u
 #define MINIRT_SHARED_QUEUE 262144u
 #define MINIRT_SHARED_SEGMENT_WORDS(volumes) (11u + (volumes))
 #define MINIRT_SHARED_SUM_WORDS 12u
+#define MINIRT_SHARED_RING_WORDS 2u
 
 /* Queues of the wavefront: each has a header, which an indirect dispatch reads: groups, 1, 1, paths; then come the paths of each.
    A round of an even number empties the first four, one of an odd number the last four. */
@@ -244,15 +245,14 @@ struct minirt_medium {
 
 /* Pushed with each dispatch. */
 struct minirt_frame {
-    minirt_vec4 position; /* xyz: camera in scene space; w: rays with no larger throughput are weak */
-    minirt_vec4 forward;  /* unit; w: radius of the lens */
-    minirt_vec4 right;    /* scaled to the half width of the image at distance 1; w: distance in focus */
-    minirt_vec4 up;       /* scaled to its half height; w: limit of what one path may add, 0: none */
-    minirt_uvec4 size;    /* x, y: image; z: room for waiting segments, of a lane, or in a queue; w: 1 in the last pass */
-    minirt_uvec4 region;  /* x, y: first pixel; z, w: one past the last */
-    minirt_uvec4 blocks;  /* x: first block of this dispatch, y: blocks in a row, z: seed, w: words of state a slot, or slots */
-    minirt_uvec4
-        sampling; /* x: sample index, y: MINIRT_FRAME_ flags, z: depth limit, w: 1: goes on, 2: ends; the round's parity */
+    minirt_vec4 position;  /* xyz: camera in scene space; w: rays with no larger throughput are weak */
+    minirt_vec4 forward;   /* unit; w: radius of the lens */
+    minirt_vec4 right;     /* scaled to the half width of the image at distance 1; w: distance in focus */
+    minirt_vec4 up;        /* scaled to its half height; w: limit of what one path may add, 0: none */
+    minirt_uvec4 size;     /* x, y: image; z: room for waiting segments or in a queue; w: 1 in the last pass */
+    minirt_uvec4 region;   /* x, y: first pixel; z, w: one past the last */
+    minirt_uvec4 blocks;   /* x: first of this dispatch, y: in a row, z: seed, w: words of state a slot, or slots */
+    minirt_uvec4 sampling; /* x: sample index, y: MINIRT_FRAME_ flags, z: depth limit, w: 1 goes on, 2 ends; parity */
 };
 
 struct minirt_counters {
@@ -1140,7 +1140,7 @@ struct minirt_context {
     VkPhysicalDeviceMemoryProperties memoryProperties = {};
     uint32_t stepBudget = 0;       // of a pixel in a dispatch
     bool hasBallots = false;       // in subgroups, by which the wavefront fills its queues
-    bool sharesTrees = false;      // whitted_shared may run: there are ballots, and no driver that ends loops
+    bool canShareTrees = false;    // whitted_shared may run: there are ballots, and no driver that ends loops
     double timestampPeriodNs = 0;  // 0: the queue has no timestamps
     uint64_t timestampMask = 0;
     VkCommandPool commandPool = VK_NULL_HANDLE;
@@ -1472,7 +1472,7 @@ inline void readDeviceProperties(minirt_context* c, uint32_t timestampBits) {
     c->limits = properties.properties.limits;
     c->hasBallots = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
                     (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT);
-    c->sharesTrees = c->hasBallots && properties.properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
+    c->canShareTrees = c->hasBallots && properties.properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
     /* Some CPU drivers end all loops of a subgroup together after 65535 passes without saying so; a pixel whose own
        passes stay below 65535 / subgroup size can never get there. The margin is for saving and loading a traversal's stack. */
     c->stepBudget = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
@@ -2122,9 +2122,9 @@ inline bool aimCamera(const minirt_scene* s, const minirt_camera& camera, minirt
     return lens && camera.vfov > 0 && camera.vfov < 180;
 }
 
-/* Of Whitted's tracers, which give the same picture: the one that shares trees where the blob holds it and the device can. */
+/* Of Whitted's tracers, which give the same picture but for rounding: the one that shares trees where the blob holds it and the device can. */
 inline minirt_integrator whittedIntegrator(const minirt_scene* s) {
-    const bool shares = s->context->sharesTrees && hasIntegrator(s, MINIRT_INTEGRATOR_WHITTED_SHARED);
+    const bool shares = s->context->canShareTrees && hasIntegrator(s, MINIRT_INTEGRATOR_WHITTED_SHARED);
     return shares || !hasIntegrator(s, MINIRT_INTEGRATOR_WHITTED) ? MINIRT_INTEGRATOR_WHITTED_SHARED : MINIRT_INTEGRATOR_WHITTED;
 }
 
@@ -2150,7 +2150,7 @@ inline minirt_result resolveDesc(minirt_job* job, const minirt_render_desc* desc
     if (!d.samples) d.samples = scene.samples;
     d.max_depth = d.max_depth ? d.max_depth - 1 : scene.max_depth;
     if (!d.integrator) d.integrator = defaultIntegrator(job->scene);
-    if (d.integrator == MINIRT_INTEGRATOR_WHITTED_SHARED && !c->sharesTrees) d.integrator = whittedIntegrator(job->scene);
+    if (d.integrator == MINIRT_INTEGRATOR_WHITTED_SHARED) d.integrator = whittedIntegrator(job->scene);
     if (!(d.max_dispatch_ms > 0)) d.max_dispatch_ms = 100.0f;
     if (d.throughput_cutoff == 0) d.throughput_cutoff = scene.throughput_cutoff;
     if (!d.region.width && !d.region.height && !d.region.x && !d.region.y) d.region = {0, 0, d.width, d.height};
@@ -2183,24 +2183,40 @@ inline bool sharesTrees(const minirt_job* job) {
     return job->desc.integrator == MINIRT_INTEGRATOR_WHITTED_SHARED;
 }
 
-/* Groups of the kernel whitted_shared: more than a device runs at once; each takes pixels until there are no more. */
-constexpr uint32_t kMostSharedGroups = 2048;
-
-/* Places of a subgroup's ring for each of its lanes: as many as wait on a pixel's own list, and some for what all lanes leave at once. */
+/* Places of a group's rings for each of its lanes: as many as wait on a pixel's own list, and some for what all lanes leave at once. */
 inline uint32_t ringPlaces(const minirt_job* job) {
     return larger(waitingRoom(job) + 4u, 16u);
 }
 
-/* Bytes of the kernel whitted_shared (shaders/whitted/shared_work.glsl): those that are zero when a dispatch begins, for so many blocks, and all. */
+/* Most bytes of state. */
+inline VkDeviceSize stateBudget(const minirt_context* c) {
+    const VkDeviceSize budget =
+        c->info.is_cpu ? VkDeviceSize(64) << 20 : smaller<VkDeviceSize>(VkDeviceSize(1) << 30, c->info.memory_bytes / 8);
+    return smaller<VkDeviceSize>(budget, c->limits.maxStorageBufferRange);
+}
+
+/* Of a group of the kernel whitted_shared; it has a subgroup a lane at most. */
+inline VkDeviceSize sharedGroupBytes(const minirt_job* job) {
+    const VkDeviceSize segment = MINIRT_SHARED_SEGMENT_WORDS(job->scene->desc.volume_capacity) * 4;
+    return kBlockPixels * (ringPlaces(job) * segment + MINIRT_SHARED_RING_WORDS * 4);
+}
+
+/* Groups of the kernel whitted_shared over so many blocks: no more than a device runs at once, or have room for their rings in half of the state; each takes
+   pixels until there are no more. */
+inline uint32_t sharedGroups(const minirt_job* job, uint32_t blocks) {
+    const VkDeviceSize fits = larger<VkDeviceSize>(stateBudget(job->scene->context) / 2 / sharedGroupBytes(job), 1);
+    return static_cast<uint32_t>(smaller<VkDeviceSize>(smaller(blocks, 2048u), fits));
+}
+
+/* Bytes of the kernel whitted_shared (shaders/whitted/shared_work.glsl): those that are zero when pixels begin, and all. */
 inline VkDeviceSize sharedZeroBytes(uint32_t blocks) {
     return (MINIRT_SHARED_COUNTER_WORDS + MINIRT_SHARED_QUEUE + VkDeviceSize(blocks) * kBlockPixels * MINIRT_SHARED_SUM_WORDS) *
            4;
 }
 
 inline VkDeviceSize sharedBytes(const minirt_job* job, uint32_t blocks) {
-    const VkDeviceSize segments =
-        MINIRT_SHARED_QUEUE + VkDeviceSize(smaller(blocks, kMostSharedGroups)) * kBlockPixels * ringPlaces(job);
-    return sharedZeroBytes(blocks) + segments * MINIRT_SHARED_SEGMENT_WORDS(job->scene->desc.volume_capacity) * 4;
+    const VkDeviceSize segment = MINIRT_SHARED_SEGMENT_WORDS(job->scene->desc.volume_capacity) * 4;
+    return sharedZeroBytes(blocks) + MINIRT_SHARED_QUEUE * segment + sharedGroups(job, blocks) * sharedGroupBytes(job);
 }
 
 /* Words of saved state a pixel; the layout is in shaders/common/suspend.glsl and the kernel. */
@@ -2221,17 +2237,19 @@ inline minirt_result ensureBuffer(minirt_scene* s, uint32_t binding, VkDeviceSiz
 /* The state of as many blocks as a dispatch may take. */
 inline minirt_result allocateState(minirt_job* job) {
     const minirt_context* c = job->scene->context;
-    VkDeviceSize budget =
-        c->info.is_cpu ? VkDeviceSize(64) << 20 : smaller<VkDeviceSize>(VkDeviceSize(1) << 30, c->info.memory_bytes / 8);
-    budget = smaller<VkDeviceSize>(budget, c->limits.maxStorageBufferRange);
-    const VkDeviceSize blockBytes = VkDeviceSize(stateWords(job)) * kBlockPixels * 4;
+    const VkDeviceSize budget = stateBudget(c);
     uint32_t blocks = smaller(job->blockCount, c->limits.maxComputeWorkGroupCount[0]);
-    while (sharesTrees(job) && blocks > 1 && sharedBytes(job, blocks) > budget) blocks = (blocks + 1) / 2;
-    if (!sharesTrees(job))
+    VkDeviceSize bytes = 0;
+    if (sharesTrees(job)) {
+        while (blocks > 1 && sharedBytes(job, blocks) > budget) blocks = (blocks + 1) / 2;
+        bytes = sharedBytes(job, blocks);
+    } else {
+        const VkDeviceSize blockBytes = VkDeviceSize(stateWords(job)) * kBlockPixels * 4;
         blocks = static_cast<uint32_t>(smaller<VkDeviceSize>(larger<VkDeviceSize>(budget / blockBytes, 1), blocks));
+        bytes = blocks * blockBytes;
+    }
     job->stateBlocks = blocks;
-    if (!sharesTrees(job)) return ensureBuffer(job->scene, MINIRT_BINDING_STATE, blocks * blockBytes, 0);
-    return ensureBuffer(job->scene, MINIRT_BINDING_STATE, sharedBytes(job, blocks), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    return ensureBuffer(job->scene, MINIRT_BINDING_STATE, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
 inline minirt_result allocateJobBuffers(minirt_job* job) {
@@ -2337,7 +2355,7 @@ inline void recordShared(minirt_job* job, VkCommandBuffer commands, uint32_t blo
         c->vk.CmdFillBuffer(commands, job->scene->buffers[MINIRT_BINDING_STATE].buffer, 0, sharedZeroBytes(blocks), 0);
         memoryBarrier(c, commands);
     }
-    recordKernel(job, commands, 0, smaller(blocks, kMostSharedGroups));
+    recordKernel(job, commands, 0, sharedGroups(job, blocks));
     memoryBarrier(c, commands);
     job->frame.sampling.w = 2;
     recordKernel(job, commands, 0, blocks);
@@ -2437,7 +2455,7 @@ inline minirt_result startJob(minirt_job* job, const minirt_render_desc* desc) {
     if (job->desc.integrator == MINIRT_INTEGRATOR_WAVEFRONT && !c->hasBallots)
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
                     "the wavefront needs subgroup ballots, which this device lacks; use the integrator 'path'");
-    if (sharesTrees(job) && !c->sharesTrees)
+    if (sharesTrees(job) && !c->canShareTrees)
         return fail(c, MINIRT_ERROR_DEVICE_UNSUPPORTED,
                     "'whitted_shared' takes a GPU with subgroup ballots; bake the scene with the integrator 'whitted' too");
     if (minirt_result r = activateIntegrator(s, job->desc.integrator)) return r;

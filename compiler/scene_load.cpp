@@ -72,6 +72,8 @@ void readIntegrators(const SceneFile& file, const JsonObject& object, RenderDefa
     }
     render.integrator = render.integrators[0];
     if (object.has("integrator")) render.integrator = integratorNamed(object.word("integrator", "", kIntegrators));
+    const bool addsShared = render.integrator == Integrator::whittedShared && !render.integratorsGiven;
+    if (addsShared) render.integrators.push_back(Integrator::whittedShared);
     if (!render.uses(render.integrator))
         object.fail("integrator", "'integrator' is none of 'integrators'", "add it there or name another one");
 }

@@ -328,7 +328,7 @@ TEST_CASE("numbers and references that no renderer may meet are refused by name"
             {"samples", corrupt, "out of range", [](Blob& b) { sceneOf(b).samples = 0; }},
             {"depth", corrupt, "out of range", [](Blob& b) { sceneOf(b).max_depth = 256; }},
             {"no integrator", corrupt, "integrator 0", [](Blob& b) { sceneOf(b).integrator = 0; }},
-            {"another integrator", corrupt, "integrator 4", [](Blob& b) { sceneOf(b).integrator = 4; }},
+            {"another integrator", corrupt, "integrator 5", [](Blob& b) { sceneOf(b).integrator = 5; }},
         });
 }
 

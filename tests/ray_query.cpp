@@ -181,11 +181,11 @@ void refuseDeviceMemory(minirt_context* context) {
 }
 
 void denyBallots(minirt_context* context) {
-    context->hasBallots = context->sharesTrees = false;
+    context->hasBallots = context->canShareTrees = false;
 }
 
 void allowSharedTrees(minirt_context* context) {
-    context->sharesTrees = true;
+    context->canShareTrees = true;
 }
 
 void limitTexels(minirt_context* context, uint32_t texels) {

@@ -30,7 +30,8 @@ size_t bake(const fs::path& scene, const fs::path& blob, bool all) {
 }
 
 const char* nameOf(uint32_t integrator) {
-    return integrator == MINIRT_INTEGRATOR_WHITTED ? "whitted" : integrator == MINIRT_INTEGRATOR_PATH ? "path" : "wavefront";
+    const char* const names[] = {"whitted", "path", "wavefront", "whitted_shared"};
+    return names[integrator - MINIRT_INTEGRATOR_WHITTED];
 }
 
 }  // namespace

@@ -9,14 +9,9 @@
 namespace cost {
 namespace {
 
-const char* kernelPrefix(minirt_integrator integrator) {
-    if (integrator == MINIRT_INTEGRATOR_WAVEFRONT) return "wave_";
-    return integrator == MINIRT_INTEGRATOR_PATH ? "path" : "whitted";
-}
-
 bool belongsTo(const minirt_kernel& kernel, minirt_integrator integrator) {
-    const char* prefix = kernelPrefix(integrator);
-    return std::strncmp(kernel.name, prefix, std::strlen(prefix)) == 0;
+    if (integrator == MINIRT_INTEGRATOR_WAVEFRONT) return std::strncmp(kernel.name, "wave_", 5) == 0;
+    return std::strcmp(kernel.name, integrator == MINIRT_INTEGRATOR_PATH ? "path" : "whitted") == 0;
 }
 
 /// A blob in memory, aligned as the validator wants it.

@@ -10,7 +10,7 @@ const uint TICKETS = 32u;  // that were drawn
 const uint BEGUN = 64u;    // slots of pixels
 const uint LIVE = 96u;     // subgroups with work and segments in the queue: 0 when all is done
 
-// Behind them: what became of each place of the queue, sums of the pixels, what is in the queue, rings. The host zeroes the first three for each dispatch.
+// Behind them: what became of each place of the queue, sums of the pixels, what is in the queue, rings. Counters, places and sums are zero when pixels begin.
 const uint PLACES = MINIRT_SHARED_COUNTER_WORDS;
 const uint SUMS = PLACES + MINIRT_SHARED_QUEUE;
 uint queueStart() { return SUMS + frame.blocks.w * MINIRT_SHARED_SUM_WORDS; }
@@ -50,16 +50,27 @@ Segment unpack(PackedSegment packed, out uint slot) {
     return segment;
 }
 
+// How many lanes a subgroup has, which need not be gl_SubgroupSize, and which of them this one is.
+uint laneCount, laneIndex;
+
+void countLanes() {
+    laneCount = subgroupBallotBitCount(subgroupBallot(true));
+    laneIndex = subgroupBallotExclusiveBitCount(subgroupBallot(true));
+}
+
 // The ring of a subgroup: places are counted on and on.
 
 shared uint ringNewest[64];  // one past the newest, of each subgroup of a block
 
-uint ringSize() { return frame.size.z * gl_SubgroupSize; }
+uint ringSize() { return frame.size.z * gl_WorkGroupSize.x / gl_NumSubgroups; }
 
-uint ringWord(uint place) {
-    uint group = ringsStart() + gl_WorkGroupID.x * frame.size.z * gl_WorkGroupSize.x * uint(PACKED_WORDS);
-    return group + gl_SubgroupID * ringSize() * uint(PACKED_WORDS) + place % ringSize();
+/// The first word of the ring; in front of it lie the two that a subgroup leaves to the next dispatch: its oldest place, and one past the newest.
+uint ringStart() {
+    uint ring = gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID;
+    return ringsStart() + ring * ringSize() * uint(PACKED_WORDS) + (ring + 1u) * MINIRT_SHARED_RING_WORDS;
 }
+
+uint ringWord(uint place) { return ringStart() + place % ringSize(); }
 
 PackedSegment onRing(uint place) {
     PackedSegment packed;
@@ -122,45 +133,57 @@ PackedSegment take(uint ticket) {
     return packed;
 }
 
-// Sums of a pixel: of each channel whole numbers, then two fractions of 16 bits, in units of 2^-16 and 2^-32, which leaves room for 2^16 segments without
-// carrying; then shadow rays, secondary ones, and whether the film has them.
+// Sums of a pixel: of each channel a fraction in units of 2^-32, a whole number and 2^32 of it; shadow rays, secondary ones, flags.
+
+const uint HAS_NAN = 1u;
+const uint IS_ON_FILM = 2u;
 
 uint sumWord(uint slot) { return SUMS + slot * MINIRT_SHARED_SUM_WORDS; }
 
-void addWord(uint at, uint value) {
-    if (value != 0u) atomicAdd(sharedWords[at], value);
+/// Adds to a digit; returns what carries to the next one.
+uint addDigit(uint at, uint value) {
+    if (value == 0u) return 0u;
+    uint before = atomicAdd(sharedWords[at], value);
+    return before + value < before ? 1u : 0u;
 }
 
 void addFixed(uint at, float value) {
-    float whole = floor(clamp(value, -1073741824.0, 1073741824.0));
-    uint fraction = uint(min((value - whole) * 4294967296.0, 4294967040.0));
-    addWord(at, uint(int(whole)));
-    addWord(at + 1u, fraction >> 16);
-    addWord(at + 2u, fraction & 0xffffu);
-}
-
-/// Moves what a lane has gathered for a pixel to its sums. A NaN counts and adds nothing.
-void addToSums(uint slot, inout vec3 radiance, inout uvec2 rays) {
-    uint at = sumWord(slot);
-    if (hasNan(radiance)) {
-        atomicAdd(counters.nan_pixels, 1u);
-        radiance = vec3(0.0);
-    }
-    UNROLL for (int i = 0; i < 3; i++) addFixed(at + 3u * uint(i), radiance[i]);
-    addWord(at + 9u, rays.x);
-    addWord(at + 10u, rays.y);
-    radiance = vec3(0.0);
-    rays = uvec2(0u);
+    float whole = floor(clamp(value, -4611686018427387904.0, 4611686018427387904.0));
+    float fraction = value == whole ? 0.0 : value - whole;
+    bool isLarge = abs(whole) >= 2147483648.0;
+    int high = isLarge ? int(floor(whole / 4294967296.0)) : int(whole) >> 31;
+    uint low = isLarge ? uint(whole - float(high) * 4294967296.0) : uint(int(whole));
+    uint carry = addDigit(at, uint(min(fraction * 4294967296.0, 4294967040.0)));
+    uint carries = addDigit(at + 1u, low) + addDigit(at + 1u, carry);
+    addDigit(at + 2u, uint(high) + carries);
 }
 
 float fixedAt(uint at) {
-    return float(int(sharedWords[at])) + (float(sharedWords[at + 1u]) + float(sharedWords[at + 2u]) * (1.0 / 65536.0)) * (1.0 / 65536.0);
+    int low = int(sharedWords[at + 1u]), high = int(sharedWords[at + 2u]);
+    float whole = high == low >> 31 ? float(low) : float(high) * 4294967296.0 + float(sharedWords[at + 1u]);
+    return whole + float(sharedWords[at]) * (1.0 / 4294967296.0);
+}
+
+/// Moves what a lane has gathered for a pixel to its sums.
+void addToSums(uint slot, inout vec3 radiance, inout uvec2 rays) {
+    uint at = sumWord(slot);
+    if (hasNan(radiance))
+        atomicOr(sharedWords[at + 11u], HAS_NAN);
+    else
+        UNROLL for (int i = 0; i < 3; i++) addFixed(at + 3u * uint(i), radiance[i]);
+    addDigit(at + 9u, rays.x);
+    addDigit(at + 10u, rays.y);
+    radiance = vec3(0.0);
+    rays = uvec2(0u);
 }
 
 /// Completes a sample of a pixel, of which all segments are done; once.
 void sumsToFilm(PixelTask task) {
     uint at = sumWord(task.slot);
-    if (sharedWords[at + 11u] != 0u) return;
-    addToFilm(task.filmIndex, vec3(fixedAt(at), fixedAt(at + 3u), fixedAt(at + 6u)), true, uvec2(sharedWords[at + 9u], sharedWords[at + 10u]));
-    sharedWords[at + 11u] = 1u;
+    uint flags = sharedWords[at + 11u];
+    if ((flags & IS_ON_FILM) != 0u) return;
+    float nan = uintBitsToFloat(0x7fc00000u);
+    vec3 radiance = (flags & HAS_NAN) != 0u ? vec3(nan) : vec3(fixedAt(at), fixedAt(at + 3u), fixedAt(at + 6u));
+    addToFilm(task.filmIndex, radiance, true, uvec2(sharedWords[at + 9u], sharedWords[at + 10u]));
+    sharedWords[at + 11u] = IS_ON_FILM;
 }
