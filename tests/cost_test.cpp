@@ -432,6 +432,17 @@ TEST_CASE("more samples are no better picture where the error was seen to rise w
     CHECK_FALSE(contains(cost::betterPictureSentence(report), "take 8 samples"));
 }
 
+TEST_CASE("more samples never count as a better picture for no time") {
+    cost::Report report = sampleReport();
+    report.measurements[4] = measured({2, 1, 2}, 1.1, 0.005, 0.004);
+    report.measurements[4].slowdown = {1.1, 0.9, 1.8};  // an unsteady machine
+    report.compareSingles();
+    const cost::Comparison* samples = report.comparisonOf(4);
+    REQUIRE(samples);
+    CHECK(cost::adviceOn(report, *samples).action == cost::Action::choose);
+    CHECK(contains(cost::betterPictureSentence(report), "take 8 samples: more time, how much could not be told, and the error"));
+}
+
 TEST_CASE("of upgrades the one that gains the most is named") {
     cost::Report report = twoSettings(0, 1, 1.05, 0.05, 0.04);
     report.measurements.push_back(measured({2, 1, 1}, 1.1, 0.01, 0));

@@ -65,6 +65,8 @@ Advice pictureAdvice(const Report& report, const Comparison& c) {
     const bool little = std::abs(c.removed) < kLeastSaving && c.wrongPixels <= kNoticeablePixels;
     if (effect.better && little && !isSamplesOrIntegrator(report.levers[c.lever]))
         return {Action::hardlyMatters, effect.slower ? "slower, and only a little better" : "only a little better"};
+    // More samples take longer, also where an unsteady machine could not show it.
+    if (effect.better && report.levers[c.lever].kind == LeverKind::samples) return {Action::choose, "better, but slower"};
     if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
     if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
     return tradeAdvice(report.levers[c.lever], c, effect);

@@ -20,7 +20,8 @@ std::string timeInWords(const Comparison& c) {
 
 /// With its time and what it does to the error.
 std::string effectInWords(const Report& report, const Comparison& c) {
-    return report.nameOf(c.measurement) + ": " + timeInWords(c) + ", and " +
+    const bool hidden = report.levers[c.lever].kind == LeverKind::samples && !measurable(c.relativeTime);
+    return report.nameOf(c.measurement) + ": " + (hidden ? "more time, how much could not be told" : timeInWords(c)) + ", and " +
            errorChange(report.errorOf(0), c.errorThen(), report.floor());
 }
 
