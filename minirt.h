@@ -2195,10 +2195,14 @@ inline VkDeviceSize stateBudget(const minirt_context* c) {
     return smaller<VkDeviceSize>(budget, c->limits.maxStorageBufferRange);
 }
 
+/* Of a segment that waits, with its pixel. */
+inline VkDeviceSize sharedSegmentBytes(const minirt_job* job) {
+    return VkDeviceSize(4) * MINIRT_SHARED_SEGMENT_WORDS(job->scene->desc.volume_capacity);
+}
+
 /* Of a group of the kernel whitted_shared; it has a subgroup a lane at most. */
 inline VkDeviceSize sharedGroupBytes(const minirt_job* job) {
-    const VkDeviceSize segment = MINIRT_SHARED_SEGMENT_WORDS(job->scene->desc.volume_capacity) * 4;
-    return kBlockPixels * (ringPlaces(job) * segment + MINIRT_SHARED_RING_WORDS * 4);
+    return kBlockPixels * (ringPlaces(job) * sharedSegmentBytes(job) + VkDeviceSize(4) * MINIRT_SHARED_RING_WORDS);
 }
 
 /* Groups of the kernel whitted_shared over so many blocks: no more than a device runs at once, or have room for their rings in half of the state; each takes
@@ -2215,8 +2219,8 @@ inline VkDeviceSize sharedZeroBytes(uint32_t blocks) {
 }
 
 inline VkDeviceSize sharedBytes(const minirt_job* job, uint32_t blocks) {
-    const VkDeviceSize segment = MINIRT_SHARED_SEGMENT_WORDS(job->scene->desc.volume_capacity) * 4;
-    return sharedZeroBytes(blocks) + MINIRT_SHARED_QUEUE * segment + sharedGroups(job, blocks) * sharedGroupBytes(job);
+    return sharedZeroBytes(blocks) + MINIRT_SHARED_QUEUE * sharedSegmentBytes(job) +
+           sharedGroups(job, blocks) * sharedGroupBytes(job);
 }
 
 /* Words of saved state a pixel; the layout is in shaders/common/suspend.glsl and the kernel. */

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <set>
 
+#include "error.hpp"
 #include "host_device.hpp"
 #include "render_scene.hpp"
 #include "runtime_hooks.hpp"
@@ -157,6 +160,30 @@ TEST_CASE("where trees cannot be shared each lane follows its own, and without t
           std::vector<std::string>{
               "'whitted_shared' takes a GPU with subgroup ballots; bake the scene with the integrator 'whitted' too"});
     if (gpu.isCpu()) CHECK(LoadedScene(other, bakeBoth(dir, nested())).render(with(MINIRT_INTEGRATOR_WHITTED_SHARED)) == alone);
+}
+
+TEST_CASE("a blob holds the kernel for shared trees where it was asked for") {
+    const TemporaryDir dir;
+    const auto kernels = [&](const std::string& json, bool shareTrees) {
+        minirtc::BakeOptions options;
+        options.shareTrees = shareTrees;
+        options.onlyDefault = true;
+        const std::filesystem::path file = test::bakeScene(dir, json, "some", options);
+        std::ifstream stream(file, std::ios::binary);
+        const std::vector<uint8_t> bytes(std::istreambuf_iterator<char>(stream), {});
+        minirt_blob blob;
+        REQUIRE(minirt_validate(bytes.data(), bytes.size(), &blob, nullptr) == MINIRT_OK);
+        std::set<std::string> names;
+        for (uint64_t i = 0; i < blob.kernel_count; ++i) names.insert(blob.kernels[i].name);
+        return names;
+    };
+    std::string one = balls();
+    one.replace(one.find(R"("integrators":["whitted","whitted_shared"],)"), 43, "");
+    CHECK(kernels(one, false) == std::set<std::string>{"whitted"});
+    CHECK(kernels(one, true) == std::set<std::string>{"whitted", "whitted_shared"});
+    std::string paths = balls();
+    paths.replace(paths.find(R"(["whitted","whitted_shared"])"), 28, R"(["path"])");
+    CHECK_THROWS_WITH_AS(kernels(paths, true), doctest::Contains("--share-trees"), minirtc::Error);
 }
 
 TEST_CASE("shared trees are recorded into an image of the host as they are rendered") {

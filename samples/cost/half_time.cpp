@@ -44,7 +44,7 @@ double wrongByLevers(const Report& report, const Configuration& configuration) {
 }
 
 /// Over the scene's own settings; what cannot be told from these takes as long.
-double timeOf(const Measurement& m) {
+double relativeTimeOf(const Measurement& m) {
     return covers(m.slowdown, 1) ? 1 : m.slowdown.median;
 }
 
@@ -62,7 +62,7 @@ bool hasSettingsOf(const Report& report, const Measurement& m, const BudgetChoic
 double samplesWithin(const Report& report, double time) {
     std::map<double, double> timeWith = {{0, 0}};
     for (const Measurement& m : report.measurements)
-        if (report.isOwnButSamples(m.configuration)) timeWith[samplesAtScene(report, m)] = timeOf(m);
+        if (report.isOwnButSamples(m.configuration)) timeWith[samplesAtScene(report, m)] = relativeTimeOf(m);
     auto below = timeWith.begin();
     auto above = std::next(below);
     while (std::next(above) != timeWith.end() && above->second <= time) below = above++;
@@ -76,11 +76,11 @@ std::optional<BudgetChoice> asMeasured(const Report& report, const BudgetChoice&
     const size_t lever = findLever(report.levers, LeverKind::samples);
     const Measurement& base = report.measurements[report.measurementOf(choice.configuration)];
     const bool atOwnSamples = base.configuration[lever] == report.levers[lever].initial;
-    double samples =
-        atOwnSamples ? samplesWithin(report, kHalf / timeOf(base)) : samplesAtScene(report, base) * kHalf / timeOf(base);
+    double samples = atOwnSamples ? samplesWithin(report, kHalf / relativeTimeOf(base))
+                                  : samplesAtScene(report, base) * kHalf / relativeTimeOf(base);
     for (const Measurement& m : report.measurements)
-        if (hasSettingsOf(report, m, choice) && samplesAtScene(report, m) <= samples && timeOf(m) > kHalf)
-            samples = samplesAtScene(report, m) * kHalf / timeOf(m);
+        if (hasSettingsOf(report, m, choice) && samplesAtScene(report, m) <= samples && relativeTimeOf(m) > kHalf)
+            samples = samplesAtScene(report, m) * kHalf / relativeTimeOf(m);
     if (samples < 1) return std::nullopt;
     BudgetChoice fitting = expected(report.levers, report.measurements, base, static_cast<uint32_t>(samples));
     fitting.ms = own.ms * kHalf * fitting.samples / samples;
@@ -101,7 +101,7 @@ std::optional<size_t> measuredLike(const Report& report, const BudgetChoice& cho
     for (size_t i = 0; i < report.measurements.size(); ++i) {
         const Measurement& m = report.measurements[i];
         const double more = std::abs(static_cast<double>(samplesAtScene(report, m)) - choice.samples);
-        if (timeOf(m) <= kHalf && hasSettingsOf(report, m, choice) && more <= kAbout * choice.samples) return i;
+        if (relativeTimeOf(m) <= kHalf && hasSettingsOf(report, m, choice) && more <= kAbout * choice.samples) return i;
     }
     return std::nullopt;
 }
@@ -113,7 +113,7 @@ BudgetChoice choiceOf(const Report& report, const BudgetChoice& own, size_t meas
 }
 
 bool recommendedHalves(const Report& report) {
-    return timeOf(report.measurements[recommended(report)]) <= kHalf;
+    return relativeTimeOf(report.measurements[recommended(report)]) <= kHalf;
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ HalfTime halfTime(const Report& report) {
     half.own = expected(report.levers, report.measurements, report.measurements.front(), report.sceneSamples);
     half.choice = withinHalf(report, half.own);
     half.measurement = half.choice ? measuredLike(report, *half.choice) : surelyFastest(report);
-    half.fits = half.choice || (half.measurement && timeOf(report.measurements[*half.measurement]) <= kHalf);
+    half.fits = half.choice || (half.measurement && relativeTimeOf(report.measurements[*half.measurement]) <= kHalf);
     if (half.measurement) half.choice = choiceOf(report, half.own, *half.measurement);
     if (half.choice) half.wrongPixels = wrongByLevers(report, half.choice->configuration);
     half.advised = recommendedHalves(report) || half.measurement == recommended(report);
