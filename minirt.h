@@ -295,9 +295,8 @@ typedef enum minirt_integrator {
     MINIRT_INTEGRATOR_SCENE = 0, /* the one that the scene names; of two that draw the same, the one for this class of devices */
     MINIRT_INTEGRATOR_WHITTED = 1,
     MINIRT_INTEGRATOR_PATH = 2,
-    MINIRT_INTEGRATOR_WAVEFRONT = 3, /* paths, by several kernels */
-    MINIRT_INTEGRATOR_WHITTED_SHARED =
-        4 /* Whitted's trees, shared by a GPU's lanes: for scenes where some are long; WHITTED on other devices */
+    MINIRT_INTEGRATOR_WAVEFRONT = 3,     /* paths, by several kernels */
+    MINIRT_INTEGRATOR_WHITTED_SHARED = 4 /* Whitted's trees, shared by a GPU's lanes; elsewhere WHITTED */
 } minirt_integrator;
 
 typedef enum minirt_node_layout { MINIRT_NODES_QUANTISED = 0, MINIRT_NODES_FLOAT = 1 } minirt_node_layout;
