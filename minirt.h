@@ -68,7 +68,7 @@ typedef struct minirt_uvec4 {
 } minirt_uvec4;
 #define MINIRT_UINT uint32_t
 /* layout-begin */
-#define MINIRT_FORMAT_VERSION 3
+#define MINIRT_FORMAT_VERSION 4
 
 #define MINIRT_NONE 0xffffffffu
 #define MINIRT_RAY_END 3.0e38f
@@ -106,8 +106,7 @@ typedef struct minirt_uvec4 {
 #define MINIRT_SPEC_STACK_LEVELS 6
 #define MINIRT_SPEC_FETCH_TEXELS 7
 #define MINIRT_SPEC_MASKS_LANES 8
-#define MINIRT_SPEC_WIDE_NODES 9
-#define MINIRT_SPEC_COUNT 10
+#define MINIRT_SPEC_COUNT 9
 
 /* Words of a pixel's saved state (shaders/common/suspend.glsl, shaders/whitted/walk.glsl, shaders/path/path.glsl); `volumes`: entries of a ray's VolumeList. */
 #define MINIRT_WALK_WORDS(volumes) (21u + 2u * (volumes))
@@ -1156,7 +1155,6 @@ struct minirt_scene {
     minirt_detail::Buffer buffers[MINIRT_BINDING_COUNT];  // those of the blob, then film, ray counts, state, counters of the job
     minirt_detail::Buffer filmReadBack;                   // where the film itself cannot be mapped
     minirt_detail::Buffer countsReadBack;
-    bool wideNodes = false;  // on the device, see keepsWideNodes
     uint32_t mediumCount = 0;
     minirt_medium* media = nullptr;
     uint32_t kernelCount = 0;
@@ -1759,41 +1757,6 @@ inline minirt_result uploadPart(minirt_scene* s, uint32_t binding, const void* d
     return r;
 }
 
-/* Bytes of nodes that a GPU gets wide at most; of larger ones it could not keep enough near (docs/performance.md). */
-constexpr uint64_t kMostWideNodeBytes = 64u << 20;
-
-/* Whether quantised nodes take 64 bytes each on the device: a GPU finds what it reads sooner than it unpacks 16-bit numbers. */
-inline bool keepsWideNodes(const minirt_context* c, const minirt_blob& b) {
-    const uint64_t bytes = b.node_count * 64;
-    return !c->info.is_cpu && b.scene->node_layout == MINIRT_NODES_QUANTISED && bytes <= kMostWideNodeBytes &&
-           bytes <= c->limits.maxStorageBufferRange && bytes / 16 <= c->limits.maxTexelBufferElements;
-}
-
-/* A child's box and reference, 4 words of a quantised node, as 8 words of a float one: planes keep their numbers. */
-inline void widenChild(const uint32_t* child, uint32_t* wide) {
-    const uint32_t planes[6] = {child[0] & 0xffffu, child[0] >> 16,     child[1] & 0xffffu,
-                                child[1] >> 16,     child[2] & 0xffffu, child[2] >> 16};
-    for (int i = 0; i < 6; ++i) {
-        const float plane = static_cast<float>(planes[i]);
-        memcpy(wide + i + i / 3, &plane, sizeof plane);
-    }
-    wide[3] = child[3];
-    wide[7] = 0;
-}
-
-inline minirt_result uploadNodes(minirt_scene* s, const minirt_blob& b, Buffer& staging) {
-    const bool isFloat = b.scene->node_layout == MINIRT_NODES_FLOAT;
-    s->wideNodes = keepsWideNodes(s->context, b);
-    if (!s->wideNodes) return uploadPart(s, MINIRT_BINDING_NODES, b.nodes, b.node_count * (isFloat ? 64 : 32), staging);
-    const uint64_t bytes = b.node_count * 64;
-    uint32_t* wide = static_cast<uint32_t*>(hostAllocate(s->context->allocator, static_cast<size_t>(bytes)));
-    if (!wide) return fail(s->context, MINIRT_ERROR_OUT_OF_MEMORY, "no memory to unpack the hierarchy");
-    for (uint64_t i = 0; i < b.node_count * 2; ++i) widenChild(b.nodes + i * 4, wide + i * 8);
-    const minirt_result result = uploadPart(s, MINIRT_BINDING_NODES, wide, bytes, staging);
-    hostRelease(s->context->allocator, wide);
-    return result;
-}
-
 inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
     struct Part {
         uint32_t binding;
@@ -1802,6 +1765,7 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
     };
     const Part parts[] = {
         {MINIRT_BINDING_SCENE, b.rows, sizeof *b.rows},
+        {MINIRT_BINDING_NODES, b.nodes, b.node_count * (b.scene->node_layout == MINIRT_NODES_FLOAT ? 64 : 32)},
         {MINIRT_BINDING_PRIMITIVES, b.primitives, b.primitive_count * 48},
         {MINIRT_BINDING_NORMALS, b.normals, b.normal_count * MINIRT_NORMAL_ROWS * 16},
         {MINIRT_BINDING_UVS, b.uvs, b.uv_count * MINIRT_UV_ROWS * 16},
@@ -1815,7 +1779,7 @@ inline minirt_result uploadScene(minirt_scene* s, const minirt_blob& b) {
         {MINIRT_BINDING_ENVIRONMENT, b.environment, b.environment_count * sizeof *b.environment},
     };
     Buffer staging;
-    minirt_result result = uploadNodes(s, b, staging);
+    minirt_result result = MINIRT_OK;
     for (const Part& part : parts)
         if (!result) result = uploadPart(s, part.binding, part.data, part.size, staging);
     destroyBuffer(s->context, staging);
@@ -1878,7 +1842,7 @@ inline minirt_result createLayouts(minirt_scene* s, uint32_t bindings) {
 /* How a kernel is specialised for the class of the device. */
 struct Specialisation {
     uint32_t groupSize, stackIsShared, sharedStackWords, privateStackWords, stepBudget, interleaveGroups, stackLevels,
-        fetchTexels, masksLanes, wideNodes;
+        fetchTexels, masksLanes;
 };
 
 inline Specialisation specialisation(const minirt_scene* scene) {
@@ -1894,7 +1858,6 @@ inline Specialisation specialisation(const minirt_scene* scene) {
     s.stepBudget = c->stepBudget;
     s.interleaveGroups = cpu;
     s.masksLanes = cpu;
-    s.wideNodes = scene->wideNodes;
     const VkDeviceSize range = c->limits.maxStorageBufferRange;
     s.fetchTexels =
         cpu || scene->buffers[MINIRT_BINDING_NODES].size > range || scene->buffers[MINIRT_BINDING_PRIMITIVES].size > range;

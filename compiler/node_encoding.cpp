@@ -65,7 +65,7 @@ EncodedNodes quantiseNodes(const Bvh& bvh, const Geometry& geometry) {
             const PlaneRange x = planes(child.box, 0);
             const PlaneRange y = planes(child.box, 1);
             const PlaneRange z = planes(child.box, 2);
-            out.words.insert(out.words.end(), {x.lo | y.lo << 16, z.lo | x.hi << 16, y.hi | z.hi << 16, reference(child)});
+            out.words.insert(out.words.end(), {x.lo | x.hi << 16, y.lo | y.hi << 16, z.lo | z.hi << 16, reference(child)});
         }
     }
     const auto rounded = [&](const BvhChild& child) {

@@ -21,6 +21,7 @@ struct Grid {
     vec3 origin;
     vec3 scale;
     vec3 planes;
+    bool isQuantised() const { return planes.x == 65535 && origin.x != 0; }
     exact3 position(const vec3& number) const { return exact3(origin) + exact3(scale) * exact3(number); }
 };
 
@@ -40,7 +41,7 @@ Grid floatGrid(float extent) {
 
 /// A box of any size, flat in one axis now and then.
 Box randomBox(const Grid& grid, Random& random) {
-    const bool whole = grid.planes.x == 65535 && grid.origin.x != 0;
+    const bool whole = grid.isQuantised();
     Box box;
     for (int axis = 0; axis < 3; ++axis) {
         const double lowest = whole ? 0 : -grid.planes[axis];
@@ -83,7 +84,9 @@ Interval exactSlabs(const Ray& ray, const exact3& lo, const exact3& hi) {
 
 f32::BoxHit intersect(const Grid& grid, const Ray& ray, const Box& box, float tMax = kFar) {
     const f32::SlabRay slabs = f32::slabRay(ray.origin, ray.direction, grid.origin, grid.scale, grid.planes);
-    return f32::intersectBox(slabs, box.lo, box.hi, tMax);
+    if (!grid.isQuantised()) return f32::intersectBox(slabs, box.lo, box.hi, tMax);
+    const glm::uvec3 planes = glm::uvec3(box.lo) | glm::uvec3(box.hi) << 16u;
+    return f32::intersectGridBox(f32::gridRay(slabs), planes, tMax);
 }
 
 /// A point of the box; each coordinate is on a face half of the time.

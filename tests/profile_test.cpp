@@ -82,8 +82,8 @@ public:
         : nodes_(nodes), bvh_(bvh), triangles_(triangles) {}
 
     RayWork operator()(const Ray& ray, bool anyHit) const {
-        const f32::SlabRay slabs =
-            f32::slabRay(ray.origin, ray.direction, nodes_.gridOrigin, nodes_.gridScale, nodes_.gridPlanes);
+        const f32::GridRay gridRay =
+            f32::gridRay(f32::slabRay(ray.origin, ray.direction, nodes_.gridOrigin, nodes_.gridScale, nodes_.gridPlanes));
         const f32::Shear shear = f32::shearOf(ray.direction);
         RayWork work = {};
         float t = ray.tMax;
@@ -93,7 +93,7 @@ public:
             open.pop_back();
             if (!(node & MINIRT_LEAF)) {
                 work.nodeSteps++;
-                step(slabs, node, t, open);
+                step(gridRay, node, t, open);
             } else if (leaf(ray, shear, node, t, work) && anyHit) {
                 break;
             }
@@ -102,15 +102,12 @@ public:
     }
 
 private:
-    float plane(uint32_t word, int half) const { return static_cast<float>(half ? word >> 16 : word & 0xffffu); }
-
-    void step(const f32::SlabRay& slabs, uint32_t node, float t, std::vector<uint32_t>& open) const {
+    void step(const f32::GridRay& ray, uint32_t node, float t, std::vector<uint32_t>& open) const {
         f32::BoxHit hit[2];
         uint32_t reference[2];
         for (int i = 0; i < 2; ++i) {
             const uint32_t* w = nodes_.words.data() + node * 8 + static_cast<size_t>(i) * 4;
-            hit[i] = f32::intersectBox(slabs, {plane(w[0], 0), plane(w[0], 1), plane(w[1], 0)},
-                                       {plane(w[1], 1), plane(w[2], 0), plane(w[2], 1)}, t);
+            hit[i] = f32::intersectGridBox(ray, {w[0], w[1], w[2]}, t);
             reference[i] = w[3];
         }
         const int near = hit[1].hit && (hit[1].tNear < hit[0].tNear || !hit[0].hit);

@@ -159,23 +159,6 @@ void specialiseAsGpu(minirt_context* context) {
     context->info.is_cpu = 0;
 }
 
-bool hasWideNodes(const minirt_scene* scene) {
-    return scene->wideNodes;
-}
-
-bool keepsWideNodes(const minirt_context* context, uint64_t nodes, bool floats) {
-    minirt_scene_desc scene = {};
-    scene.node_layout = floats ? MINIRT_NODES_FLOAT : MINIRT_NODES_QUANTISED;
-    minirt_blob blob = {};
-    blob.scene = &scene;
-    blob.node_count = nodes;
-    return detail::keepsWideNodes(context, blob);
-}
-
-uint32_t limitStorage(minirt_context* context, uint32_t bytes) {
-    return std::exchange(context->limits.maxStorageBufferRange, bytes);
-}
-
 void refuseDeviceMemory(minirt_context* context) {
     context->vk.AllocateMemory = [](auto...) { return VK_ERROR_OUT_OF_DEVICE_MEMORY; };
 }

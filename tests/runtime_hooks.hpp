@@ -15,15 +15,6 @@ void setStepBudget(minirt_context* context, uint32_t steps);
 /// Specialises kernels from now on as for a GPU: private stacks, scene data in storage buffers, no interleaving. Keeps the budget of steps.
 void specialiseAsGpu(minirt_context* context);
 
-/// Whether the nodes lie unpacked on the device, as a GPU keeps them.
-bool hasWideNodes(const minirt_scene* scene);
-
-/// Whether they would, were there so many, packed to 16 bits or as floats.
-bool keepsWideNodes(const minirt_context* context, uint64_t nodes, bool floats = false);
-
-/// As if the device took no more bytes in a storage buffer. Returns what it took before.
-uint32_t limitStorage(minirt_context* context, uint32_t bytes);
-
 /// As if the device had no memory left.
 void refuseDeviceMemory(minirt_context* context);
 

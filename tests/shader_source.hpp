@@ -34,6 +34,7 @@ using glm::normalize;
 using glm::sqrt;
 using glm::uintBitsToFloat;
 using glm::uvec2;
+using glm::uvec3;
 using glm::uvec4;
 using uint = glm::uint;
 }  // namespace shader_names
@@ -60,6 +61,7 @@ constexpr real MACHINE_EPSILON = std::numeric_limits<real>::epsilon() / 2;
 #include "../shaders/sampling/filter.glsl"
 #include "../shaders/bsdf/microfacet.glsl"
 #include "../shaders/traverse/box.glsl"
+#include "../shaders/traverse/grid_box.glsl"
 #include "../shaders/traverse/triangle.glsl"
 #include "../shaders/traverse/sphere.glsl"
 // clang-format on

@@ -229,7 +229,7 @@ SceneBytes RayKernel::bytes() const {
 
 uint32_t RayKernel::nodeBytes() const {
     const minirt_scene* scene = insides_->scene;
-    return scene->wideNodes || scene->desc.node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
+    return scene->desc.node_layout == MINIRT_NODES_FLOAT ? 64 : 32;
 }
 
 uint32_t RayKernel::primitiveBytes() const {

@@ -33,14 +33,18 @@ struct BoxHit {
     real tNear;
 };
 
-/// Planes picked by the direction's signs, extremes found by their bits: the fewest instructions, where drivers guard min and max against NaN above all.
-BoxHit intersectBox(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
-    vec3 entry = vec3(slabs.scale.x < real(0) ? hi.x : lo.x, slabs.scale.y < real(0) ? hi.y : lo.y, slabs.scale.z < real(0) ? hi.z : lo.z);
-    vec3 exit = vec3(slabs.scale.x < real(0) ? lo.x : hi.x, slabs.scale.y < real(0) ? lo.y : hi.y, slabs.scale.z < real(0) ? lo.z : hi.z);
-    vec3 tEntry = entry * slabs.scale + slabs.near;
-    vec3 tExit = exit * slabs.scale + slabs.far;
+/// Of the intervals between the distances where planes are entered and left, an axis each, and of 0 to tMax. Extremes by their bits: the fewest
+/// instructions, where drivers guard min and max against NaN above all.
+BoxHit overlap(vec3 tEntry, vec3 tExit, real tMax) {
     BoxHit result;
     result.tNear = maxByBits(maxByBits(tEntry.x, tEntry.y), maxByBits(tEntry.z, real(0)));
     result.hit = result.tNear <= minByBits(minByBits(tExit.x, tExit.y), minByBits(tExit.z, tMax));
     return result;
+}
+
+/// Planes are picked by the direction's signs.
+BoxHit intersectBox(SlabRay slabs, vec3 lo, vec3 hi, real tMax) {
+    vec3 entry = vec3(slabs.scale.x < real(0) ? hi.x : lo.x, slabs.scale.y < real(0) ? hi.y : lo.y, slabs.scale.z < real(0) ? hi.z : lo.z);
+    vec3 exit = vec3(slabs.scale.x < real(0) ? lo.x : hi.x, slabs.scale.y < real(0) ? lo.y : hi.y, slabs.scale.z < real(0) ? lo.z : hi.z);
+    return overlap(entry * slabs.scale + slabs.near, exit * slabs.scale + slabs.far, tMax);
 }

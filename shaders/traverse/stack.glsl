@@ -4,7 +4,7 @@
 #define NODE_NONE 0xffffffffu
 
 shared uint sharedStack[SHARED_STACK_WORDS];
-uint privateStack[PRIVATE_STACK_WORDS];
+uint privateStack[PRIVATE_STACK_WORDS + 1u];  // below all entries is NODE_NONE, so that taking one needs no look at how many there are
 
 /// The newest entries, the newest first, NODE_NONE where there is none; and how many older ones lie in memory. On a GPU all do.
 struct NodeStack {
@@ -13,7 +13,10 @@ struct NodeStack {
     int level;
 };
 
-NodeStack stackInMemory(int level) { return NodeStack(uvec4(NODE_NONE), uvec4(NODE_NONE), level); }
+NodeStack stackInMemory(int level) {
+    if (!STACK_IS_SHARED) privateStack[0] = NODE_NONE;
+    return NodeStack(uvec4(NODE_NONE), uvec4(NODE_NONE), level);
+}
 
 uint stackWord(int level) { return uint(level) * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
 
@@ -21,10 +24,10 @@ void stackWrite(int level, uint entry) {
     if (STACK_IS_SHARED)
         sharedStack[stackWord(level)] = entry;
     else
-        privateStack[level] = entry;
+        privateStack[level + 1] = entry;
 }
 
-uint stackRead(int level) { return STACK_IS_SHARED ? sharedStack[stackWord(level)] : privateStack[level]; }
+uint stackRead(int level) { return STACK_IS_SHARED ? sharedStack[stackWord(level)] : privateStack[level + 1]; }
 
 /// Puts `entry` on the stack where `puts`, or takes the newest into `node` where `takes`, NODE_NONE where there is none; not both. What registers have
 /// no room for goes to memory and comes back from there: a lane does one or the other, so an exchange, which is one loop over the lanes, does for both.
@@ -43,9 +46,9 @@ void changeStack(inout NodeStack stack, inout uint node, bool puts, uint entry, 
         stack.newest = puts ? uvec4(entry, stack.newest.xyz) : takes ? uvec4(stack.newest.yzw, stack.older.x) : stack.newest;
         stack.older = older;
     } else {
-        if (puts) privateStack[stack.level] = entry;
+        if (puts) privateStack[stack.level + 1] = entry;
         stack.level += int(puts) - int(takes);
-        if (takes) node = stack.level >= 0 ? privateStack[max(stack.level, 0)] : NODE_NONE;
+        if (takes) node = privateStack[stack.level + 1];
     }
 }
 

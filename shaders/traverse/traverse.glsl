@@ -49,7 +49,7 @@ void intersectLeaf(inout Traversal ray, Shear shear, uint leaf, inout uint steps
 /// Visits nodes until the ray is done or `steps` reaches `budget`. Counts a step for every pass of every loop, as some drivers do. Loops test
 /// at their end: where a driver masks lanes, a pass that only finds the condition false costs as much as any other.
 void traverse(inout Traversal ray, inout uint steps, uint budget) {
-    SlabRay slabs = slabRay(ray.origin, ray.direction, scene.gridOrigin.xyz, scene.gridScale.xyz, scene.gridPlanes.xyz);
+    BoxRay boxRay = boxRayOf(slabRay(ray.origin, ray.direction, scene.gridOrigin.xyz, scene.gridScale.xyz, scene.gridPlanes.xyz));
     Shear shear = shearOf(ray.direction);
     uint node = ray.node;
     NodeStack stack = ray.stack;
@@ -61,12 +61,12 @@ void traverse(inout Traversal ray, inout uint steps, uint budget) {
                 do {
                     steps += PASS;
                     countNodeStep();
-                    ChildBoxes boxes = fetchNode(node);
-                    BoxHit hit0 = intersectBox(slabs, boxes.lo0, boxes.hi0, ray.t);
-                    BoxHit hit1 = intersectBox(slabs, boxes.lo1, boxes.hi1, ray.t);
+                    Children children = fetchNode(node);
+                    BoxHit hit0 = meetBox(boxRay, children.box0, ray.t);
+                    BoxHit hit1 = meetBox(boxRay, children.box1, ray.t);
                     bool secondFirst = hit1.hit && (hit1.tNear < hit0.tNear || !hit0.hit);
-                    node = secondFirst ? boxes.ref1 : boxes.ref0;
-                    changeStack(stack, node, hit0.hit && hit1.hit, secondFirst ? boxes.ref0 : boxes.ref1, !(hit0.hit || hit1.hit));
+                    node = secondFirst ? children.ref1 : children.ref0;
+                    changeStack(stack, node, hit0.hit && hit1.hit, secondFirst ? children.ref0 : children.ref1, !(hit0.hit || hit1.hit));
                 } while ((node & MINIRT_LEAF) == 0u && (MASKS_LANES ? steps < budget : ++nodes < NODES_TOGETHER));
             }
             countLeafBranch(node != NODE_NONE && (node & MINIRT_LEAF) != 0u);
