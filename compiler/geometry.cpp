@@ -11,7 +11,7 @@
 namespace minirtc {
 namespace {
 
-/// Coordinates end here, not at FLT_MAX: squared distances and areas of boxes must not overflow either.
+/// Coordinates end here, not at FLT_MAX: squared distances, areas of boxes and a GridRay (shaders/traverse/grid_box.glsl) must not overflow either.
 constexpr double kLargestCoordinate = 1e18;
 
 /// sin and cos that are exact at multiples of 90 degrees, so that axis-aligned shapes stay so.

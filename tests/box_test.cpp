@@ -165,6 +165,51 @@ TEST_CASE("no box is missed by rounding from any distance on either grid") {
     }
 }
 
+TEST_CASE("no box is missed at the ends of the range of coordinates on either grid") {
+    Random random(5);
+    for (const float extent : {1e-20f, 1e15f, 1e18f}) {
+        for (const Grid& grid : {quantisedGrid(extent), floatGrid(extent)}) {
+            for (const double distance : {0.0, 1e-3, 1.0, 10.0}) {
+                const Tally tally = compare(grid, distance * static_cast<double>(extent), 20000, random);
+                CAPTURE(extent);
+                CAPTURE(grid.planes.x);
+                CAPTURE(distance);
+                CHECK(tally.met > 2000);
+                CHECK(tally.missed == 0);
+                CHECK(tally.late == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("a quantised plane is left no sooner than it lies, and by no more than two and a quarter planes later") {
+    Random random(6);
+    int early = 0;
+    double latest = 0;
+    for (int i = 0; i < 3000000; ++i) {
+        const auto scale = static_cast<float>(random.uniform(1, 1.001));
+        const auto middle = static_cast<float>(random.uniform(-70000, 70000));
+        const f32::GridRay ray = f32::gridRay({vec3(scale), vec3(middle), vec3(middle)});  // slabs without slack
+        const uint32_t plane = random.index(65536);
+        const float exit = f32::exitPlane(plane << 16, ray.exit.x) * ray.scale.x + ray.far.x;
+        const double late = static_cast<double>(exit) - (static_cast<double>(plane) * static_cast<double>(scale) + middle);
+        early += late < 0;
+        latest = std::max(latest, late);
+    }
+    CHECK(early == 0);
+    CHECK(latest < 2.25);
+    CHECK(latest > 1);
+}
+
+TEST_CASE("the empty box of a quantised node is missed") {
+    Random random(7);
+    const Grid grid = quantisedGrid(1);
+    const Box empty{vec3(65535), vec3(0)};
+    int met = 0;
+    for (int i = 0; i < 100000; ++i) met += intersect(grid, rayTo(random.inCube(), random.uniform(0, 1e3), random), empty).hit;
+    CHECK(met == 0);
+}
+
 TEST_CASE("axis-parallel rays in the planes of faces meet the box with zeros of either sign") {
     Random random(2);
     int missed = 0;

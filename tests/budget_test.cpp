@@ -123,6 +123,29 @@ std::string smallScene() {
            balls + "]}";
 }
 
+/// A wavy floor of 1682 triangles, under a ball of glass and one that mirrors.
+std::string facets(const TemporaryDir& dir) {
+    constexpr int kSide = 30;
+    std::string obj;
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j)
+            obj += "v " + number(0.2 * i - 3) + " " + number(0.02 * (i * 7 % 5 + j * 3 % 4)) + " " + number(0.2 * j - 3) + "\n";
+    for (int i = 1; i < kSide; ++i)
+        for (int j = 1; j < kSide; ++j) {
+            const int last = kSide * i + j + 1;
+            for (const int corner : {last - kSide - 1, last - kSide, last, last - 1})
+                obj += (corner == last - kSide - 1 ? "f " : " ") + std::to_string(corner);
+            obj += "\n";
+        }
+    dir.write("facets.obj", obj);
+    return R"({"camera":{"position":[0,2,5],"target":[0,0,0],"vfov":45},"render":{"size":[24,24],"maxDepth":4},"background":{"color":[0.2,0.3,0.5]},
+        "lights":[{"type":"point","position":[3,4,2],"intensity":[20,20,20]}],
+        "materials":{"glass":{"model":"pbr","roughness":0,"transmission":1},"mirror":{"model":"phong","diffuse":0.1,"reflect":0.8},
+                     "matt":{"model":"phong","color":[0.7,0.3,0.2]}},
+        "objects":[{"mesh":"facets.obj","material":"matt"},{"sphere":{"center":[-0.6,0.6,0],"radius":0.5},"material":"glass"},
+                   {"sphere":{"center":[0.7,0.6,0.2],"radius":0.5},"material":"mirror"}]})";
+}
+
 }  // namespace
 
 TEST_CASE("a traversal past a hundred thousand needles is not cut short") {
@@ -349,6 +372,22 @@ TEST_CASE("kernels specialised as for a GPU give the same picture bit for bit") 
         test::setStepBudget(gpu.get(), 500);
         const LoadedScene scene(gpu, test::bakeScene(dir, smallScene()));
         pictures[asGpu] = scene.render();
+    }
+    CHECK(pictures[0] == pictures[1]);
+}
+
+TEST_CASE("a GPU whose storage buffers are too small for a scene reads it as texels, for the same picture bit for bit") {
+    TemporaryDir dir;
+    const std::filesystem::path blob = test::bakeScene(dir, facets(dir));
+    Picture pictures[2];
+    for (const bool tooSmall : {false, true}) {
+        GpuContext gpu;
+        if (!gpu) return;
+        test::specialiseAsGpu(gpu.get());
+        if (tooSmall) test::limitStorage(gpu.get(), 64u << 10);
+        const LoadedScene scene(gpu, blob);
+        CHECK(test::fetchesTexels(scene.get()) == tooSmall);
+        pictures[tooSmall] = scene.render();
     }
     CHECK(pictures[0] == pictures[1]);
 }

@@ -152,7 +152,7 @@ TEST_CASE("a triangle takes a node step, and a test where its box is met") {
     CHECK(profile.nodeSteps.most == 1);
     CHECK(profile.triangleTests.mean == 1.0 / kGroup);
     CHECK(profile.triangleTests.most == 1);
-    CHECK(profile.nodeBytes == kernels.counting.nodeBytes());
+    CHECK(profile.nodeBytes == 32);
     CHECK(profile.triangleBytes == 48.0 / kGroup);
     // All lanes take the node step. One alone tests; where lanes are masked, the other subgroups run that test for nobody.
     CHECK(profile.nodeLanes.inUse == 1);
@@ -183,8 +183,9 @@ TEST_CASE("the device's work is that of a walk over the blob's nodes") {
             steps += work[i].nodeSteps;
         }
         CHECK(steps > 5 * rays.size());
-        CHECK(differing <=
-              (gpu.isCpu() ? 0 : rays.size() / 100));  // a GPU contracts products and sums, which moves boxes by a rounding
+        CHECK(
+            differing <=
+            (gpu.isCpu() ? 0 : rays.size() / 100));  // a GPU contracts products and sums, which moves boxes by up to half a plane
     }
 }
 

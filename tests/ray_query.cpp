@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
-#include <utility>
 
 #include "runtime_hooks.hpp"
 
@@ -159,8 +158,23 @@ void specialiseAsGpu(minirt_context* context) {
     context->info.is_cpu = 0;
 }
 
-void refuseDeviceMemory(minirt_context* context) {
-    context->vk.AllocateMemory = [](auto...) { return VK_ERROR_OUT_OF_DEVICE_MEMORY; };
+void limitStorage(minirt_context* context, uint32_t bytes) {
+    context->limits.maxStorageBufferRange = bytes;
+}
+
+bool fetchesTexels(const minirt_scene* scene) {
+    return detail::specialisation(scene).fetchTexels != 0;
+}
+
+void limitAllocations(minirt_context* context, int count) {
+    static PFN_vkAllocateMemory allocate;
+    static int left;
+    allocate = context->vk.AllocateMemory;
+    left = count;
+    context->vk.AllocateMemory = [](VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks,
+                                    VkDeviceMemory* memory) {
+        return left-- > 0 ? allocate(device, info, callbacks, memory) : VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    };
 }
 
 void denyBallots(minirt_context* context) {

@@ -15,8 +15,14 @@ void setStepBudget(minirt_context* context, uint32_t steps);
 /// Specialises kernels from now on as for a GPU: private stacks, scene data in storage buffers, no interleaving. Keeps the budget of steps.
 void specialiseAsGpu(minirt_context* context);
 
-/// As if the device had no memory left.
-void refuseDeviceMemory(minirt_context* context);
+/// As if the device took no more bytes in a storage buffer.
+void limitStorage(minirt_context* context, uint32_t bytes);
+
+/// Whether kernels read nodes and primitives as texels.
+bool fetchesTexels(const minirt_scene* scene);
+
+/// As if the device had memory for so many allocations more. For one context at a time.
+void limitAllocations(minirt_context* context, int count);
 
 /// As if the device had no ballots in subgroups.
 void denyBallots(minirt_context* context);

@@ -26,8 +26,8 @@ SlabRay slabRay(vec3 origin, vec3 direction, vec3 gridOrigin, vec3 gridScale, ve
     return slabs;
 }
 
-/// Entry distance (at least 0) and whether the box with the planes `lo`, `hi` is met before tMax. All distances are finite where coordinates of scene and
-/// origin are below 1e19, beyond which the triangle test overflows; a negative exit is a miss whichever it is.
+/// Entry distance (at least 0) and whether the box is met before tMax. All distances are finite where coordinates of the scene are below 1e18, as those of
+/// minirtc's are, and of the origin below 1e19, beyond which the triangle test overflows; a negative exit is a miss whichever it is.
 struct BoxHit {
     bool hit;
     real tNear;

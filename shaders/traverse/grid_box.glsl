@@ -1,4 +1,4 @@
-// The test of box.glsl where planes are 16-bit numbers, two to a word: as few instructions as a node step can do with. GLSL and C++ (tests/shader_source.hpp).
+// The test of box.glsl where planes are 16-bit numbers, two to a word, by the fewest instructions on units that an H100 has few of (docs/performance.md). GLSL and C++ (tests/shader_source.hpp).
 
 /// A ray against such boxes. Of a word times `entry` the upper half is the plane where the ray enters, of one times `exit` the other plane.
 struct GridRay {
@@ -14,7 +14,7 @@ const float PLANE_BIAS = 8388608.0;
 const uint PLANE_BIAS_BITS = 0x4b000000u;
 
 /// `slabs` for such boxes. The bias rounds `far` by half a plane (2^23 times scale, times 2^-24), and as much a product that is not fused with its sum: `far` is
-/// put off by a little more than both. Planes where the ray enters are converted, exactly: a GPU has units for conversions beside those for all else, for half of them.
+/// put off by a little more than both. Finite for scenes up to 1.3e18. Planes where the ray enters are converted, which is exact: units for conversions stand idle else.
 GridRay gridRay(SlabRay slabs) {
     GridRay ray;
     ray.scale = slabs.scale;
@@ -25,7 +25,7 @@ GridRay gridRay(SlabRay slabs) {
     return ray;
 }
 
-/// A product picks a plane, as GPUs have more units for it than for a shift or a selection.
+/// A product picks a plane, as shifts and selections share their units with all comparisons.
 float entryPlane(uint planes, uint factor) { return float(planes * factor >> 16); }
 float exitPlane(uint planes, uint factor) { return uintBitsToFloat(planes * factor >> 16 | PLANE_BIAS_BITS); }
 
