@@ -75,54 +75,11 @@ void beginPixel(inout Lane lane, uint slot) {
     if (!inside) lane.ray = traceCamera(lane.walk, task.pixel, noVolumes());
 }
 
-/// The rays that leave the end of a segment wait, for this lane or another one.
-void holdBranches(inout Lane lane, bool hit, Encounter e) {
-    Branches leaving = branchesAt(lane.walk, hit, e);
-    if (leaving.reflects) holdOrCount(lane.slot, lane.walk, leaving.reflected);
-    if (leaving.refracts) holdOrCount(lane.slot, lane.walk, leaving.refracted);
-}
-
 /// Traces the lane's ray and begins the next one of the same segment, if there is one.
 void traceOn(inout Lane lane) {
     traverse(lane.ray, lane.steps, 0xffffffffu);
-    bool arrived = lane.walk.phase == PHASE_CLOSEST;
-    bool toCamera = TRACKS_VOLUMES && lane.walk.phase == PHASE_CAMERA;
-    bool stopped = lane.ray.slot != MINIRT_NONE;
-    bool clear = SHADOWS_PASS && lane.walk.phase == PHASE_SHADOW && stopped && mayBeClear(lane.ray.slot);
-    if (arrived) {
-        lane.walk.hitSlot = lane.ray.slot;
-        lane.walk.hitT = lane.ray.t;
-    }
-    bool passing = clear || (toCamera && stopped);
-    bool hit = passing || (!toCamera && lane.walk.hitSlot != MINIRT_NONE);
-    uint slot = passing ? lane.ray.slot : lane.walk.hitSlot;
-    Encounter e = encounterAt(passing ? lane.ray.origin : lane.walk.segment.origin, passing ? lane.ray.direction : lane.walk.segment.direction, hit ? slot : 0u,
-                              passing ? lane.ray.t : lane.walk.hitT, clear ? lane.walk.shadowVolumes : lane.walk.segment.volumes, lane.walk.segment.channel);
-    if (hit && e.boundary.overflow) atomicAdd(counters.volume_overflow, 1u);
-    if (arrived && hit) divideLight(lane.slot, taskOf(lane.slot).pixel, lane.walk, e);
-    if (arrived) {
-        arrive(lane.walk, hit, e);
-        holdBranches(lane, hit, e);
-    }
-    if (lane.walk.phase == PHASE_SHADOW && !stopped) lane.walk.radiance += lane.walk.unshadowed * transmittance(mediumAround(lane.walk.shadowVolumes), lane.ray.t);
-    if (clear) {
-        lane.ray = passShadow(lane.walk, lane.ray, e);
-        lane.rays.x += isDone(lane.ray) ? 0u : 1u;
-    } else if (toCamera && stopped) {
-        lane.ray = passToCamera(lane.ray, frame.position.xyz, e);
-        lane.walk.segment.origin = lane.ray.origin;
-        lane.walk.segment.volumes = e.boundary.transmitted;
-    } else if (toCamera) {
-        lane.ray = traceCamera(lane.walk, taskOf(lane.slot).pixel, lane.walk.segment.volumes);
-    } else {
-        uint tried = 0u;
-        if (hit && lane.walk.light < lightCount()) {
-            lane.ray = traceShadow(lane.walk, tried, e);
-            lane.rays.x += isDone(lane.ray) ? 0u : 1u;
-        }
-        bool allLightsSeen = isDone(lane.ray) && lane.walk.light == lightCount();
-        if (!hit || allLightsSeen) lane.walk.phase = PHASE_DONE;
-    }
+    uint tried = 0u;
+    lane.ray = nextRay(Owner(lane.slot), lane.walk, lane.ray, tried, lane.rays);
     lane.steps += 16u;  // of this pass, all loops but the traversal's and those of a constant bound
     if (!works(lane)) addToSums(lane.slot, lane.walk.radiance, lane.rays);
 }

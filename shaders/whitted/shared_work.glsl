@@ -2,6 +2,16 @@
 // which lanes without work draw tickets. Who waits for a ticket's segment holds up nobody, and may stop waiting at any time. Radiance adds up in fixed point: a
 // picture does not depend on who traced what.
 
+/// The pixel that a segment is for. Where it lies is found out for the few rays that need it, rather than kept.
+struct Owner {
+    uint slot;
+};
+
+uvec2 pixelOf(Owner owner) { return taskOf(owner.slot).pixel; }
+
+/// All rays that leave a surface are for any lane, as soon as it is met.
+const bool ALL_BRANCHES_WAIT = true;
+
 layout(std430, binding = MINIRT_BINDING_STATE) coherent volatile buffer SharedBuffer { uint sharedWords[]; };
 
 // Counters, each on a cache line of its own.

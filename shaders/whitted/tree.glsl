@@ -1,5 +1,5 @@
-// What happens where a ray of the tree ends. A kernel before it says where segments wait: `bool hold(uint slot, inout TreeWalk walk, Segment segment)`, of the
-// pixel `slot`.
+// What happens where a ray of the tree ends. The file before it says where segments wait: `bool hold(uint slot, inout TreeWalk walk, Segment segment)`, of the
+// pixel `slot`; which of them do, `ALL_BRANCHES_WAIT`; and what is known of that pixel, `Owner`.
 
 /// A segment waits for its turn, or is lost and counted where there is no room.
 void holdOrCount(uint slot, inout TreeWalk walk, Segment segment) {
@@ -61,4 +61,75 @@ void arrive(inout TreeWalk walk, bool hit, Encounter e) {
     vec3 shine = hit ? (e.boundary.skipped ? vec3(0.0) : emission(e.material, e.entering, e.surface.uv)) : backgroundRadiance(walk.segment.direction);
     walk.radiance += walk.segment.throughput * shine;
     walk.light = e.boundary.skipped ? lightCount() : 0u;
+}
+
+/// Where all branches wait.
+void holdBranches(uint slot, inout TreeWalk walk, bool hit, Encounter e) {
+    Branches leaving = branchesAt(walk, hit, e);
+    if (leaving.reflects) holdOrCount(slot, walk, leaving.reflected);
+    if (leaving.refracts) holdOrCount(slot, walk, leaving.refracted);
+}
+
+/// Where not all do: follows one of the rays that leave the surface, puts the other on the list; with none, takes one from the list.
+Traversal nextSegment(uint slot, inout TreeWalk walk, bool hit, Encounter e) {
+    Branches leaving = branchesAt(walk, hit, e);
+    if (leaving.reflects && leaving.refracts) holdOrCount(slot, walk, leaving.reflected);
+    if (leaving.refracts) return traceSegment(walk, leaving.refracted);
+    if (leaving.reflects) return traceSegment(walk, leaving.reflected);
+    walk.phase = PHASE_DONE;
+    if (walk.waiting > 0u) {
+        uint word = waitingWord(--walk.waiting);
+        return traceSegment(walk, takeSegment(slot, word));
+    }
+    return beginTraversal(vec3(0.0), vec3(0.0, 0.0, 1.0), 0.0, false);
+}
+
+/// The ray has ended: gathers what it brings and begins the next one of the walk. Without one, the walk is done.
+Traversal nextRay(Owner owner, inout TreeWalk walk, Traversal ray, inout uint steps, inout uvec2 rays) {
+    bool arrived = walk.phase == PHASE_CLOSEST;
+    bool toCamera = TRACKS_VOLUMES && walk.phase == PHASE_CAMERA;
+    bool stopped = ray.slot != MINIRT_NONE;
+    bool clear = SHADOWS_PASS && walk.phase == PHASE_SHADOW && stopped && mayBeClear(ray.slot);
+    if (arrived) {
+        walk.hitSlot = ray.slot;
+        walk.hitT = ray.t;
+    }
+    // The surface that matters now: where this ray passes through, or where the segment ended.
+    bool passing = clear || (toCamera && stopped);
+    bool hit = passing || (!toCamera && walk.hitSlot != MINIRT_NONE);
+    uint slot = passing ? ray.slot : walk.hitSlot;
+    Encounter e = encounterAt(passing ? ray.origin : walk.segment.origin, passing ? ray.direction : walk.segment.direction,
+                              hit ? slot : 0u, passing ? ray.t : walk.hitT, clear ? walk.shadowVolumes : walk.segment.volumes, walk.segment.channel);
+    if (hit && e.boundary.overflow) atomicAdd(counters.volume_overflow, 1u);
+    if (arrived && hit) divideLight(owner.slot, pixelOf(owner), walk, e);
+    if (arrived) {
+        arrive(walk, hit, e);
+        if (ALL_BRANCHES_WAIT) holdBranches(owner.slot, walk, hit, e);
+    }
+    if (walk.phase == PHASE_SHADOW && !stopped) walk.radiance += walk.unshadowed * transmittance(mediumAround(walk.shadowVolumes), ray.t);
+    if (clear) {
+        ray = passShadow(walk, ray, e);
+        rays.x += isDone(ray) ? 0u : 1u;
+    } else if (toCamera && stopped) {
+        ray = passToCamera(ray, frame.position.xyz, e);
+        walk.segment.origin = ray.origin;
+        walk.segment.volumes = e.boundary.transmitted;
+    } else if (toCamera) {
+        ray = traceCamera(walk, pixelOf(owner), walk.segment.volumes);
+    } else {
+        if (hit && walk.light < lightCount()) {
+            ray = traceShadow(walk, steps, e);
+            rays.x += isDone(ray) ? 0u : 1u;
+        }
+        bool allLightsSeen = isDone(ray) && walk.light == lightCount();
+        if (!hit || allLightsSeen) {
+            if (ALL_BRANCHES_WAIT) {
+                walk.phase = PHASE_DONE;
+            } else {
+                ray = nextSegment(owner.slot, walk, hit, e);
+                rays.y += walk.phase == PHASE_CLOSEST ? 1u : 0u;
+            }
+        }
+    }
+    return ray;
 }
