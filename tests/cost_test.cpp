@@ -303,9 +303,10 @@ TEST_CASE("sentences give the cost of the accurate setting and what the cheap on
     REQUIRE(report.comparisons.size() == 4);
     const cost::Comparison& fresnel = report.comparisons[0];
     CHECK(report.levers[fresnel.lever].name == "fresnel");
-    CHECK(cost::sentence(report.levers[0], fresnel, 0) ==
-          "Exact Fresnel instead of Schlick's Fresnel costs 2 % of the time and removes 80 % of the error (0.0100 instead of "
-          "0.0500); without it 12 % of the pixels visibly change.");
+    CHECK(
+        cost::sentence(report.levers[0], fresnel, 0) ==
+        "Exact Fresnel instead of Schlick's Fresnel costs 2 % of the time (0.98 to 2.9 %) and removes 80 % of the error (0.0100 "
+        "instead of 0.0500); without it 12 % of the pixels visibly change.");
     CHECK(cost::verdict(fresnel) == "keep");
     CHECK(cost::idleSentence(idleLever()) == "Dispersion: left alone, since no medium disperses light.");
 }
@@ -317,7 +318,8 @@ TEST_CASE("sentences say where nothing changes, and where nothing can be told") 
     };
     const auto said = [&](double slowdown, double error) { return cost::sentence(levers[0], compared(slowdown, error), 0); };
     CHECK(said(1.21, 0.01) ==
-          "8 samples instead of 4 would cost 21 % more time and change nothing that could be measured in the picture.");
+          "8 samples instead of 4 would cost 21 % more time (20 to 22 %) and change nothing that could be measured in the "
+          "picture.");
     CHECK(cost::verdict(compared(1.21, 0.01)) == "spare");
     CHECK(said(1.004, 0.01) ==
           "8 samples instead of 4 would make no difference that could be measured, neither in time nor in the picture.");
@@ -325,10 +327,12 @@ TEST_CASE("sentences say where nothing changes, and where nothing can be told") 
     CHECK(said(1.004, 0.005) ==
           "8 samples instead of 4 would have no measurable cost and remove 50 % of the error (0.00500 instead of 0.0100).");
     CHECK(said(3, 0.005) ==
-          "8 samples instead of 4 would take 3.00 times as long and remove 50 % of the error (0.00500 instead of 0.0100).");
+          "8 samples instead of 4 would take 3.00 times as long (2.97 to 3.03) and remove 50 % of the error (0.00500 instead of "
+          "0.0100).");
     CHECK(cost::verdict(compared(3, 0.005)) == "trade");
-    CHECK(said(0.8, 0.012) ==
-          "8 samples instead of 4 would save 20 % of the time and add 20 % to the error (0.0120 instead of 0.0100).");
+    CHECK(
+        said(0.8, 0.012) ==
+        "8 samples instead of 4 would save 20 % of the time (19 to 21 %) and add 20 % to the error (0.0120 instead of 0.0100).");
 }
 
 TEST_CASE("what to do is said of the setting that the scene has") {
@@ -343,9 +347,9 @@ TEST_CASE("what to do is said of the setting that the scene has") {
     CHECK(advice(twoSettings(kExact, kNone, 0.5, 0.01, 0.015)).action == cost::Action::choose);
     CHECK(advice(twoSettings(kNone, kExact, 2, 0.015, 0.01)).action == cost::Action::choose);
     CHECK(advice(twoSettings(kExact, kNone, 0.96, 0.01, 0.0101)).action == cost::Action::keep);  // too little time to choose
-    CHECK(advice(twoSettings(kExact, kSchlick, 1.002, 0.01, 0.01)).reason == "no difference");
+    CHECK(advice(twoSettings(kExact, kSchlick, 1.002, 0.01, 0.01)).reason == "no measured difference");
     CHECK(advice(twoSettings(kSchlick, kExact, 1, 0.0103, 0.01)).reason == "only a little better");
-    CHECK(advice(twoSettings(kSchlick, kExact, 1, 0.013, 0.01)).reason == "better for no time");
+    CHECK(advice(twoSettings(kSchlick, kExact, 1, 0.013, 0.01)).reason == "better, and not surely slower");
     cost::Report mixed = twoSettings(kSchlick, kExact, 1.5, 0.01, 0.012, 0);
     mixed.measurements[0].sameSamples.wrongPixels = 0.05;
     mixed.comparisons = cost::compareLevers(mixed.levers, mixed.measurements, 1);
@@ -353,6 +357,26 @@ TEST_CASE("what to do is said of the setting that the scene has") {
     CHECK(advice(mixed).reason == "fewer wrong pixels, but more error");
     CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).action == cost::Action::hardlyMatters);
     CHECK(advice(twoSettings(kExact, kSchlick, 0.97, 0.01, 0.01)).reason == "not surely 5 % faster");
+}
+
+TEST_CASE("what the repeats scatter by is never called slower or faster") {
+    constexpr size_t kSchlick = 1, kExact = 2;
+    const auto reasonOf = [](cost::Report report, const Spread& time) {
+        report.measurements[1].slowdown = time;
+        report.compareSingles();
+        return cost::adviceOn(report, report.comparisons.front()).reason;
+    };
+    const cost::Report same = twoSettings(kSchlick, kExact, 1, 0.01, 0.01);
+    CHECK(reasonOf(same, {1.08, 1.03, 1.12}) == "not surely slower");  // beyond its quartiles, but not by what these spread
+    CHECK(reasonOf(same, {1.08, 1.06, 1.1}) == "slower for nothing");
+    CHECK(reasonOf(same, {1.06, 1.04, 1.08}) == "a little slower");
+    CHECK(reasonOf(same, {1.08, 0.99, 1.12}) == "no measured difference");
+    CHECK(reasonOf(twoSettings(kSchlick, kExact, 1, 0.013, 0.01), {1.08, 1.03, 1.12}) == "better, and not surely slower");
+    CHECK(reasonOf(twoSettings(kExact, kSchlick, 1, 0.01, 0.013), {0.92, 0.88, 0.97}) == "worse, and not surely faster");
+    cost::Report longer = twoSettings(kExact, kSchlick, 1, 0.01, 0.05);
+    longer.measurements[1].slowdown = {1.08, 1.03, 1.12};
+    longer.compareSingles();
+    CHECK(contains(cost::sentence(longer.levers[0], longer.comparisons.front(), 0), " has no measurable cost and removes"));
 }
 
 TEST_CASE("an instruction names the setting to take") {
@@ -369,20 +393,21 @@ TEST_CASE("a sentence says costs of what the scene has, and would cost of what i
         return cost::sentence(report.levers[0], report.comparisons.front(), report.floor());
     };
     CHECK(said(twoSettings(2, 1, 0.7, 0.01, 0.05)) ==
-          "Exact Fresnel instead of Schlick's Fresnel costs 30 % of the time and removes 80 % of the error (0.0100 instead of "
-          "0.0500).");
+          "Exact Fresnel instead of Schlick's Fresnel costs 30 % of the time (29 to 31 %) and removes 80 % of the error (0.0100 "
+          "instead of 0.0500).");
     CHECK(said(twoSettings(1, 2, 1.3, 0.05, 0.01)) ==
-          "Exact Fresnel instead of Schlick's Fresnel would cost 30 % more time and remove 80 % of the error (0.0100 instead of "
-          "0.0500).");
+          "Exact Fresnel instead of Schlick's Fresnel would cost 30 % more time (29 to 31 %) and remove 80 % of the error "
+          "(0.0100 instead of 0.0500).");
     CHECK(said(twoSettings(2, 1, 1.3, 0.01, 0.05)) ==
-          "Exact Fresnel instead of Schlick's Fresnel costs no time (a picture takes 30 % longer without it) and removes 80 % of "
-          "the error (0.0100 instead of 0.0500).");
+          "Exact Fresnel instead of Schlick's Fresnel costs no time: without it a picture takes 30 % longer (29 to 31 %), and "
+          "removes 80 % of the error (0.0100 instead of 0.0500).");
 }
 
 TEST_CASE("errors that the reference cannot tell apart are not compared") {
     const cost::Report report = twoSettings(2, 1, 0.7, 0.01, 0.05);
     CHECK(cost::sentence(report.levers[0], report.comparisons.front(), 0.06) ==
-          "Exact Fresnel instead of Schlick's Fresnel costs 30 % of the time and changes less of the error than can be told "
+          "Exact Fresnel instead of Schlick's Fresnel costs 30 % of the time (29 to 31 %) and changes less of the error than can "
+          "be told "
           "(≤ 0.0600).");
     cost::Report many = manySamplesReport();
     CHECK(many.floor() == doctest::Approx(many.reference.relMse / 16));
@@ -406,7 +431,8 @@ TEST_CASE("how much of the error only more samples reduce") {
     report.measurements.front().bias.value = 0.04;
     CHECK(cost::samplingShare(report) == doctest::Approx(0.2));
     CHECK(cost::betterPictureSentence(report) ==
-          "Take exact Fresnel: 2 % more time, and the error falls from 0.0500 to 0.0100. 20 % of the error (0.0500) is jagged "
+          "Take exact Fresnel: 2 % more time (0.98 to 3 %), and the error falls from 0.0500 to 0.0100. 20 % of the error "
+          "(0.0500) is jagged "
           "edges and missed detail of 4 samples a pixel: more samples reduce no more than that.");
     REQUIRE(cost::betterPicture(report));
     CHECK(cost::betterPicture(report)->configuration[0] == 2);
@@ -416,7 +442,7 @@ TEST_CASE("how much of the error only more samples reduce") {
     CHECK(cost::betterPictureSentence(report) ==
           "Nearly all of the error (0.0100) is the noise of 4 samples a pixel, which more samples reduce. With all else as "
           "it is, take 8 samples: "
-          "2.00 times the time, and the error falls from 0.0100 to 0.00500.");
+          "2.00 times the time (1.98 to 2.02), and the error falls from 0.0100 to 0.00500.");
     REQUIRE(cost::betterPicture(report));
     CHECK(cost::betterPicture(report)->samples == 8);
     CHECK(contains(cost::page(report), "For a better picture"));
@@ -457,7 +483,7 @@ TEST_CASE("a setting that saves time and makes a better picture is named for bot
     REQUIRE(cost::recommended(report) == 1);
     CHECK(cost::adviceOn(report, report.comparisons.front()).action == cost::Action::switchTo);
     CHECK(contains(cost::betterPictureSentence(report),
-                   "Take exact Fresnel: 20 % less time, and the error falls from 0.0500 to 0.0100."));
+                   "Take exact Fresnel: 20 % less time (19 to 21 %), and the error falls from 0.0500 to 0.0100."));
     REQUIRE(cost::betterPicture(report));
     CHECK(cost::betterPicture(report)->configuration[0] == 2);
     CHECK(contains(cost::page(report), "For the same picture in less time"));
@@ -598,6 +624,10 @@ TEST_CASE("letters are counted, not their bytes, and times are written against t
     CHECK(cost::relativeTime(0.7) == "−30 %");
     CHECK(cost::relativeTime(1.041) == "+4.1 %");
     CHECK(cost::relativeTime(2.06) == "2.06 ×");
+    CHECK(cost::timeDifference({0.81, 0.75, 0.88}) == "19 % less time (12 to 25 %)");
+    CHECK(cost::timeDifference({1.9, 1.8, 2.2}) == "90 % more time (80 to 120 %)");
+    CHECK(cost::timeDifference({2.06, 1.98, 2.11}) == "2.06 times the time (1.98 to 2.11)");
+    CHECK(cost::timeDifference({0.81, 0.8099, 0.8101}) == "19 % less time");
     CHECK(cost::errorChange(0.01, 0.02, 0) == "the error rises from 0.0100 to 0.0200");
     CHECK(cost::errorChange(0.01, 0.001, 0.002) == "the error falls from 0.0100 to ≤ 0.00200");
     CHECK(cost::errorChange(0.01, 0.010001, 0) == "the error stays at 0.0100");
@@ -725,9 +755,10 @@ TEST_CASE("where not even one sample fits half the time, the fastest that surely
                            measured({1, 1, 0}, 0.81, 0.02, 0.13), measured({2, 1, 1}, 2, 0.005, 0.01)};
     report.comparisons = cost::compareLevers(report.levers, report.measurements, 1);
     CHECK(cost::halfTimeSentence(report) ==
-          "Nothing that was measured halves the time. What surely saves the most is Schlick's Fresnel: 19 % less time, and the "
-          "error "
-          "rises from 0.0100 to 0.0200; 12 % of the pixels visibly change, over the limit of 0.2 % for a recommendation.");
+          "Nothing that was measured halves the time. What surely saves the most is Schlick's Fresnel: 19 % less time (18 to 20 "
+          "%), "
+          "and the error rises from 0.0100 to 0.0200; 12 % of the pixels visibly change, over the limit of 0.2 % for a "
+          "recommendation.");
     CHECK_FALSE(cost::halfTime(report).fits);
     report.measurements[1] = measured({0, 1, 0}, 0.8, 0.0101, 0.01);
     report.measurements[1].sameSamples.relMse = 0;  // the noise of few samples: as accurate as the scene's own settings
@@ -749,7 +780,7 @@ TEST_CASE("what is recommended is the fastest that keeps the quality, with the f
     report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.0104, 0.011));
     CHECK(cost::recommended(report) == 6);
     CHECK(cost::recommendationSentence(report) ==
-          "Take Schlick's Fresnel: 20 % less time, and the error rises from 0.0100 to 0.0104.");
+          "Take Schlick's Fresnel: 20 % less time (19 to 21 %), and the error rises from 0.0100 to 0.0104.");
     report.measurements.push_back(measured({0, 1, 2}, 0.79, 0.0104, 0.011));  // as fast, but changes more
     CHECK(cost::recommended(report) == 6);
     report.measurements.back().slowdown = {0.7, 0.69, 0.71};
@@ -767,9 +798,10 @@ TEST_CASE("where a few pixels alone speak against a setting it is named, with wh
     cost::Report report = sampleReport();
     report.measurements.push_back(measured({1, 1, 1}, 0.6, 0.0104, 0.0155));
     CHECK(cost::recommended(report) == 0);
-    CHECK(contains(cost::recommendationSentence(report),
-                   "The closest that just fails is Schlick's Fresnel: 40 % less time, but 0.55 % of the pixels visibly change; "
-                   "the limit is 0.2 %."));
+    CHECK(contains(
+        cost::recommendationSentence(report),
+        "The closest that just fails is Schlick's Fresnel: 40 % less time (39 to 41 %), but 0.55 % of the pixels visibly change; "
+        "the limit is 0.2 %."));
     report.measurements.back().error.relMse = 0.02;
     CHECK_FALSE(contains(cost::recommendationSentence(report), "closest"));
     report.measurements.back() = measured({1, 1, 1}, 0.6, 0.0104, 0.05);  // far more than a few
@@ -1171,7 +1203,12 @@ TEST_CASE("the page warns of times that were unsteady") {
     cost::Report report = sampleReport();
     CHECK_FALSE(contains(cost::page(report), "unsteady"));
     report.measurements[0].ms = {10, 9, 11};
-    CHECK(contains(cost::page(report), "scatter by 20\u00a0%"));
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
+    report.measurements.back().slowdown = {0.8, 0.7, 0.9};
+    const std::string html = cost::page(report);
+    CHECK(contains(html, "scatter by 20\u00a0%. How far a time is known stands in brackets behind it."));
+    CHECK(contains(html, "20\u00a0% less time (10 to 30\u00a0%)"));
+    CHECK(contains(html, "<b>Time</b>: in brackets behind it, the middle half of all repeats."));
 }
 
 TEST_CASE("every point is in both plots, inside of their boxes") {

@@ -18,7 +18,7 @@ struct Effect {
 
 Effect effectOf(const Comparison& c) {
     Effect effect;
-    const bool time = measurable(c.relativeTime);
+    const bool time = surelyDiffers(c.relativeTime);
     effect.faster = time && c.relativeTime.median < 1;
     effect.slower = time && c.relativeTime.median > 1;
     if (c.change == ErrorChange::none) return effect;
@@ -41,10 +41,12 @@ Advice savingAdvice(const Report& report, const Comparison& c) {
 }
 
 Advice sameErrorAdvice(const Comparison& c, const Effect& effect) {
-    if (effect.slower && c.relativeTime.median >= 1 + kLeastSaving)
+    const Spread& time = c.relativeTime;
+    if (effect.slower && time.lower >= 1 + kLeastSaving)
         return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "slower for nothing"};
-    if (effect.faster) return {Action::hardlyMatters, "not surely " + percent(kLeastSaving) + " faster"};
-    return {Action::hardlyMatters, effect.slower ? "a little slower" : "no difference"};
+    if (!measurable(time)) return {Action::hardlyMatters, "no measured difference"};
+    if (time.median < 1) return {Action::hardlyMatters, "not surely " + percent(kLeastSaving) + " faster"};
+    return {Action::hardlyMatters, effect.slower ? "a little slower" : "not surely slower"};
 }
 
 /// Where the better picture takes more time: whether the error changes by the larger factor decides.
@@ -67,8 +69,9 @@ Advice pictureAdvice(const Report& report, const Comparison& c) {
         return {Action::hardlyMatters, effect.slower ? "slower, and only a little better" : "only a little better"};
     // More samples take longer, also where an unsteady machine could not show it.
     if (effect.better && report.levers[c.lever].kind == LeverKind::samples) return {Action::choose, "better, but slower"};
-    if (effect.better && !effect.slower) return {Action::upgrade, "better for no time"};
-    if (effect.worse && !effect.faster) return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and no faster"};
+    if (effect.better && !effect.slower) return {Action::upgrade, "better, and not surely slower"};
+    if (effect.worse && !effect.faster)
+        return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and not surely faster"};
     return tradeAdvice(report.levers[c.lever], c, effect);
 }
 

@@ -12,10 +12,7 @@ namespace {
 constexpr double kMostOfTheError = 0.5;  // share from which on what reduces it is worth saying
 
 std::string timeInWords(const Comparison& c) {
-    const double time = c.relativeTime.median;
-    if (!measurable(c.relativeTime)) return "no more time";
-    if (time >= 2) return number(time) + " times the time";
-    return percent(std::abs(time - 1)) + (time < 1 ? " less time" : " more time");
+    return measurable(c.relativeTime) ? timeDifference(c.relativeTime) : "no more time";
 }
 
 /// With its time and what it does to the error.

@@ -121,15 +121,16 @@ std::string secondVerb(const Lever& lever, const Comparison& c, const std::strin
 
 std::string costPhrase(const Lever& lever, const Comparison& c) {
     const double time = c.relativeTime.median;
-    const std::string without = std::string(" without ") + (lever.plural ? "them" : "it");
+    const std::string range = timeRange(c.relativeTime);
+    const std::string without = std::string("without ") + (lever.plural ? "them" : "it");
     const std::string cost = verb(lever, c, "costs", "cost");
-    if (!measurable(c.relativeTime)) return verb(lever, c, "has", "have") + " no measurable cost";
-    if (c.sceneHasAccurate && time < 1) return cost + " " + percent(1 - time) + " of the time";
-    if (c.sceneHasAccurate)
-        return cost + " no time (a picture takes " +
-               (time < 2 ? percent(time - 1) + " longer" : number(time) + " times as long") + without + ")";
-    if (time < 1) return "would save " + percent(1 - time) + " of the time";
-    return time < 2 ? cost + " " + percent(time - 1) + " more time" : "would take " + number(time) + " times as long";
+    const bool longerByChance = c.sceneHasAccurate && time > 1 && !surelyDiffers(c.relativeTime);
+    if (!measurable(c.relativeTime) || longerByChance) return verb(lever, c, "has", "have") + " no measurable cost";
+    if (c.sceneHasAccurate && time < 1) return cost + " " + percent(1 - time) + " of the time" + range;
+    const std::string longer = time < 2 ? percent(time - 1) + " longer" : number(time) + " times as long";
+    if (c.sceneHasAccurate) return cost + " no time: " + without + " a picture takes " + longer + range + ",";
+    if (time < 1) return "would save " + percent(1 - time) + " of the time" + range;
+    return (time < 2 ? cost + " " + percent(time - 1) + " more time" : "would take " + longer) + range;
 }
 
 std::string errorPhrase(const Lever& lever, const Comparison& c, double floor) {
@@ -185,6 +186,11 @@ bool measurable(const Spread& relativeTime) {
     return !covers(relativeTime, 1) && std::abs(relativeTime.median - 1) >= kNoticeable;
 }
 
+bool surelyDiffers(const Spread& relativeTime) {
+    return measurable(relativeTime) &&
+           std::abs(std::log(relativeTime.median)) > std::log(relativeTime.upper / relativeTime.lower);
+}
+
 std::string sentence(const Lever& lever, const Comparison& c, double floor) {
     const std::string& cheap = lever.settings[c.cheap].words;
     const bool counts = lever.plural && lever.kind != LeverKind::baked;
@@ -201,7 +207,7 @@ std::string idleSentence(const Lever& lever) {
 }
 
 std::string verdict(const Comparison& c) {
-    const bool time = measurable(c.slowdown);
+    const bool time = surelyDiffers(c.slowdown);
     const bool slower = time && c.slowdown.median > 1;
     if (c.change == ErrorChange::none) return !time ? "either" : slower ? "spare" : "keep";
     if (c.wrongPixels > kNoticeablePixels || c.change == ErrorChange::less) return !slower || c.usefulness > 0 ? "keep" : "trade";

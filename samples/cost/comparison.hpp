@@ -37,6 +37,10 @@ struct Comparison {
 /// Whether a time, over another, differs from it by more than chance and by enough to be worth a word.
 bool measurable(const Spread& relativeTime);
 
+/// Whether it is surely another time: it differs by more than the middle half of all pairs of repeats is wide. Of many settings that are compared, some differ by
+/// less by chance.
+bool surelyDiffers(const Spread& relativeTime);
+
 /// Each setting that was measured against the scene's own, lever by lever, the most useful first. `singles`: as oneAtATime gave them. `moreSamples`: how
 /// many times as many samples as measured the scene takes by itself; all errors are those expected for so many.
 std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles,

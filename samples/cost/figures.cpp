@@ -52,6 +52,24 @@ std::string relativeTime(double ratio) {
     return (ratio < 1 ? "−" : "+") + percent(std::abs(ratio - 1));
 }
 
+std::string timeRange(const Spread& ratio) {
+    const bool asFactor = ratio.median >= 2;
+    const auto written = [&](double value) { return asFactor ? number(value) : percent(std::abs(value - 1)); };
+    std::string from = written(ratio.median < 1 ? ratio.upper : ratio.lower);
+    const std::string to = written(ratio.median < 1 ? ratio.lower : ratio.upper);
+    if (from == to) return "";
+    const std::string unit = " %";
+    if (!asFactor) from.erase(from.size() - unit.size());
+    return " (" + from + " to " + to + ")";
+}
+
+std::string timeDifference(const Spread& ratio) {
+    const std::string difference = ratio.median >= 2
+                                       ? number(ratio.median) + " times the time"
+                                       : percent(std::abs(ratio.median - 1)) + (ratio.median < 1 ? " less" : " more") + " time";
+    return difference + timeRange(ratio);
+}
+
 size_t letterCount(const std::string& text) {
     const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
     return static_cast<size_t>(std::count_if(text.begin(), text.end(), begins));

@@ -2,6 +2,8 @@
 #pragma once
 #include <string>
 
+#include "../common/spread.hpp"
+
 namespace cost {
 
 /// To two significant digits at most, near the whole by what is missing: "2.1 %", "0.4 %", "21 %", "99.6 %". "0 %" is 0 alone.
@@ -18,6 +20,13 @@ std::string errorChange(double from, double to, double floor);
 
 /// A time over that of the scene's own settings, 1: "−30 %", "+4.1 %", from twice as long on "2.06 ×".
 std::string relativeTime(double ratio);
+
+/// How far a time over another is known, by its quartiles: " (12 to 25 %)" more or less, from twice as long on " (1.98 to 2.11)"; "" where these are written
+/// as the median is.
+std::string timeRange(const Spread& ratio);
+
+/// "19 % less time (12 to 25 %)", "2.06 times the time (1.98 to 2.11)".
+std::string timeDifference(const Spread& ratio);
 
 /// Of UTF-8, of which some letters are several bytes.
 size_t letterCount(const std::string& text);

@@ -137,8 +137,10 @@ std::string halfTimeSentence(const Report& report) {
         return recommendedHalves(report) ? "The same: it halves the time already."
                                          : "Nothing that was measured halves the time; the same saves the most.";
     std::string text = half.fits ? "Take " : "Nothing that was measured halves the time. What surely saves the most is ";
-    text += changesInWords(report, *half.choice) + (half.measurement ? ": " : ": about ") + percent(1 - half.relativeTime()) +
-            " less time, and " + errorChange(half.own.relMse, half.choice->relMse, report.floor());
+    const std::string time = half.measurement ? timeDifference(report.measurements[*half.measurement].slowdown)
+                                              : "about " + percent(1 - half.relativeTime()) + " less time";
+    text += changesInWords(report, *half.choice) + ": " + time + ", and " +
+            errorChange(half.own.relMse, half.choice->relMse, report.floor());
     if (half.wrongPixels > kNoticeablePixels)
         text += "; " + percent(half.wrongPixels) + " of the pixels visibly change, over the limit of " +
                 percent(kNoticeablePixels) + " for a recommendation";

@@ -52,6 +52,7 @@ std::string definitions(const Report& report) {
             "That of another setting is the scene's own and what the setting adds by itself. <b>Visibly change</b>: by more "
             "than " +
             std::to_string(kUnseenSteps) + " of a screen's 255 steps. ";
+    text += "<b>Time</b>: in brackets behind it, the middle half of all repeats. ";
     return element("p", "class=\"soft\"", text + "Underlined <a href=\"#words\">words</a> are explained at the end.");
 }
 
@@ -88,7 +89,7 @@ std::string unsteadyWarning(const Report& report) {
     if (share <= kUnsteady) return "";
     return element("p", "class=\"warning\"",
                    prose("Times were unsteady: the repeats of one picture scatter by " + percent(share) +
-                         ". Measure again while nothing else runs."));
+                         ". How far a time is known stands in brackets behind it. Measure again while nothing else runs."));
 }
 
 std::string head(const Report& report) {

@@ -15,7 +15,7 @@ std::string ruleText(const Report& report) {
                    "scene has, <i>upgrade</i> to a better picture: where the error changes by a larger factor than the time; "
                    "<i>not needed</i>: no better, and slower or worse; "
                    "<i>your choice</i>: where it does not, and of most numbers of samples; <i>hardly matters</i>: no "
-                   "difference that could be measured, or less than " +
+                   "difference that could be measured, or not surely " +
                        prose(percent(kLeastSaving)) + " of the time.");
 }
 
@@ -54,15 +54,15 @@ std::string samplesText(const Report& report) {
 }
 
 std::string timeText(const Report& report) {
-    return element("p", "",
-                   "<b>Time</b> is the device's time for the dispatches of one picture: the median of " +
-                       std::to_string(report.measurements.front().repeats) +
-                       " repeats, in rounds in which all settings take turns. From these the drift of whole rounds is taken "
-                       "out. It is compared by the ratios of all pairs of repeats; one whose middle half includes 1 is called "
-                       "the same. On the line of the plot is nothing that is faster by less than twice what the repeats scatter, "
-                       "since many settings are "
-                       "compared there. Pipelines are created before; "
-                       "a driver that caches them makes their time smaller.") +
+    return element(
+               "p", "",
+               "<b>Time</b> is the device's time for the dispatches of one picture: the median of " +
+                   std::to_string(report.measurements.front().repeats) +
+                   " repeats, in rounds in which all settings take turns. From these the drift of whole rounds is taken "
+                   "out. It is compared by the ratios of all pairs of repeats; one whose middle half includes 1 is called "
+                   "the same. Nothing is called slower, or is on the line of the plot as faster, that differs by less than twice "
+                   "what the repeats scatter, since many settings are compared. Pipelines are created before; "
+                   "a driver that caches them makes their time smaller.") +
            element("p", "",
                    prose(number(report.prepareSeconds) + " of " + number(report.seconds) +
                          " s went into baking and into the pipelines of " + std::to_string(report.pipelines) +

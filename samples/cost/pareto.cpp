@@ -20,7 +20,7 @@ bool surelyLess(const Spread& a, const Spread& b) {
 
 /// Over that of the scene's own settings; what is faster than these by chance, or cannot be told from them, is none.
 double timeOf(const Measurement& m) {
-    const bool byChance = m.slowdown.median < 1 && !surelyLess(m.slowdown, {1, 1, 1});
+    const bool byChance = m.slowdown.median < 1 && !surelyDiffers(m.slowdown);
     return byChance || covers(m.slowdown, 1) ? 1 : m.slowdown.median;
 }
 

@@ -47,7 +47,7 @@ size_t nearestMiss(const Report& report) {
 std::string nearestMissSentence(const Report& report, size_t miss) {
     const Measurement& m = report.measurements[miss];
     return " The closest that just fails is " + changesInWords(report, choiceOf(report, miss)) + ": " +
-           percent(1 - m.slowdown.median) + " less time, but " + percent(moreWrongPixels(report, m)) +
+           timeDifference(m.slowdown) + ", but " + percent(moreWrongPixels(report, m)) +
            " of the pixels visibly change; the limit is " + percent(kNoticeablePixels) + ".";
 }
 
@@ -94,7 +94,7 @@ std::string recommendationSentence(const Report& report) {
                " of the time and keeps the quality of the picture." + (miss ? nearestMissSentence(report, miss) : "");
     }
     return "Take " + changesInWords(report, choiceOf(report, choice)) + ": " +
-           percent(1 - report.measurements[choice].slowdown.median) + " less time, and " +
+           timeDifference(report.measurements[choice].slowdown) + ", and " +
            errorChange(report.errorOf(0), report.errorOf(choice), report.floor()) + ".";
 }
 
