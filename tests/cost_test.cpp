@@ -1204,10 +1204,10 @@ TEST_CASE("the page warns of times that were unsteady") {
     CHECK_FALSE(contains(cost::page(report), "unsteady"));
     report.measurements[0].ms = {10, 9, 11};
     report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.01));
-    report.measurements.back().slowdown = {0.8, 0.7, 0.9};
+    report.measurements.back().slowdown = {0.8, 0.72, 0.88};
     const std::string html = cost::page(report);
     CHECK(contains(html, "scatter by 20\u00a0%. How far a time is known stands in brackets behind it."));
-    CHECK(contains(html, "20\u00a0% less time (10 to 30\u00a0%)"));
+    CHECK(contains(html, "20\u00a0% less time (12 to 28\u00a0%)"));
     CHECK(contains(html, "<b>Time</b>: in brackets behind it, the middle half of all repeats."));
 }
 
@@ -1222,6 +1222,38 @@ TEST_CASE("every point is in both plots, inside of their boxes") {
     }
     CHECK_FALSE(contains(html, "nan"));
     CHECK_FALSE(contains(html, "inf\""));
+}
+
+TEST_CASE("texts of ticks neither meet nor leave the plot, however narrow it is") {
+    for (const double width : {340.0, 860.0})
+        for (double most = 1.1; most < 500; most *= 1.02) {
+            CAPTURE(width);
+            CAPTURE(most);
+            cost::Plot plot;
+            plot.width = width, plot.height = 360;
+            for (const double time : {0.4, 1.0, most}) {
+                plot.points.emplace_back();
+                plot.points.back().time = plot.points.back().timeLower = plot.points.back().timeUpper = time;
+                plot.points.back().error = 0.01 * time;
+            }
+            const std::string svg = cost::drawPlot(plot).svg;
+            std::vector<double> middles;
+            std::vector<double> halves;
+            const std::string tick = "class=\"tick\" text-anchor=\"middle\">";
+            for (size_t at = svg.find(tick); at != std::string::npos; at = svg.find(tick, at + 1)) {
+                const size_t from = at + tick.size();
+                const size_t x = svg.rfind("x=\"", at) + 3;
+                middles.push_back(std::stod(svg.substr(x)));
+                halves.push_back(3 * static_cast<double>(svg.find('<', from) - from));  // of letters that are 6 wide
+            }
+            REQUIRE(middles.size() >= 2);
+            for (size_t i = 0; i < middles.size(); ++i) {
+                CHECK(middles[i] - halves[i] >= 0);
+                CHECK(middles[i] + halves[i] <= width);
+                for (size_t k = 0; k < i; ++k) CHECK(std::abs(middles[i] - middles[k]) > halves[i] + halves[k] + 3);
+            }
+            CHECK(contains(svg, ">100 %<"));
+        }
 }
 
 TEST_CASE("what is recommended has a star, and what is like the scene's own settings no label") {

@@ -62,6 +62,35 @@ double lengthOf(const std::string& content) {
     return kLetter * static_cast<double>(letterCount(content));
 }
 
+std::string percentOf(double time) {
+    return plain(100 * time) + " %";
+}
+
+/// 0 of 1 and its powers of ten, 1 of 2 and 5, 2 of all that are less round.
+int roundness(double tick) {
+    const double step = tick / std::pow(10.0, std::floor(std::log10(tick) + 1e-9));
+    const auto is = [&](double value) { return std::abs(step - value) < 1e-6; };
+    return is(1) ? 0 : is(2) || is(5) ? 1 : 2;
+}
+
+/// Those ticks whose texts neither meet nor leave the picture: where there is no room for all, the rounder ones. `sizeOf`: of a tick's text along the axis.
+template <typename SizeOf>
+std::vector<double> ticksThatFit(const Axis& axis, const SizeOf& sizeOf, double most) {
+    constexpr double kApart = 6;
+    std::vector<double> ticks = ticksOf(axis);
+    std::stable_sort(ticks.begin(), ticks.end(), [](double a, double b) { return roundness(a) < roundness(b); });
+    std::vector<double> fitting;
+    for (double t : ticks) {
+        const double half = sizeOf(t) / 2;
+        const bool leaves = axis.at(t) - half < 0 || axis.at(t) + half > most;
+        const bool meets = std::any_of(fitting.begin(), fitting.end(), [&](double other) {
+            return std::abs(axis.at(other) - axis.at(t)) < half + sizeOf(other) / 2 + kApart;
+        });
+        if (!leaves && !meets) fitting.push_back(t);
+    }
+    return fitting;
+}
+
 std::string text(double x, double y, const std::string& cssClass, const std::string& anchor, const std::string& content) {
     return "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" class=\"" + cssClass + "\" text-anchor=\"" + anchor + "\">" +
            escaped(content) + "</text>\n";
@@ -140,11 +169,13 @@ private:
 
     std::string axes() const {
         std::string out;
-        for (double t : ticksOf(x_)) {
+        for (double t : ticksThatFit(
+                 x_, [](double value) { return lengthOf(percentOf(value)); }, plot_.width)) {
             out += line(x_.at(t), y_.to, x_.at(t), y_.from, "grid");
-            out += text(x_.at(t), y_.from + 15, "tick", "middle", plain(100 * t) + " %");
+            out += text(x_.at(t), y_.from + 15, "tick", "middle", percentOf(t));
         }
-        for (double t : ticksOf(y_)) {
+        for (double t : ticksThatFit(
+                 y_, [](double) { return kText; }, plot_.height)) {
             out += line(x_.from, y_.at(t), x_.to, y_.at(t), "grid");
             out += text(x_.from - 5, y_.at(t) + 4, "tick", "end", plain(t));
         }
