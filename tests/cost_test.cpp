@@ -12,6 +12,7 @@
 #include "../samples/cost/figures.hpp"
 #include "../samples/cost/glossary.hpp"
 #include "../samples/cost/half_time.hpp"
+#include "../samples/cost/html.hpp"
 #include "../samples/cost/page.hpp"
 #include "../samples/cost/page_pictures.hpp"
 #include "../samples/cost/pareto.hpp"
@@ -769,6 +770,8 @@ TEST_CASE("where not even one sample fits half the time, the fastest that surely
     CHECK(cost::halfTime(report).measurement == 1);
     for (cost::Measurement& m : report.measurements) m.slowdown.upper = 0.96;
     CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or surely saves 5 % of it.");
+    for (cost::Measurement& m : report.measurements) m.slowdown = {0.82, 0.62, 0.94};  // less than the repeats scatter
+    CHECK(cost::halfTimeSentence(report) == "Nothing that was measured halves the time, or surely saves 5 % of it.");
     CHECK_FALSE(cost::halfTime(report).choice);
 }
 
@@ -806,6 +809,47 @@ TEST_CASE("where a few pixels alone speak against a setting it is named, with wh
     CHECK_FALSE(contains(cost::recommendationSentence(report), "closest"));
     report.measurements.back() = measured({1, 1, 1}, 0.6, 0.0104, 0.05);  // far more than a few
     CHECK_FALSE(contains(cost::recommendationSentence(report), "closest"));
+}
+
+TEST_CASE("beside the plot stands why a point that looks as good as what is recommended is not") {
+    cost::Report report = sampleReport();
+    const auto why = [&] { return cost::whyNotRecommended(report, 6); };
+    const auto isListed = [&](const std::string& reason) {
+        const std::string html = cost::page(report);
+        const size_t from = html.find("Several changed, as good as ★ or better by the looks of the plot, but not recommended:");
+        if (from == std::string::npos) return false;
+        const std::string list = html.substr(from, html.find("</ul>", from) - from);
+        return contains(list, "<b class=\"combination\">6</b> " + report.nameOf(6) + ": " + cost::prose(reason));
+    };
+    report.measurements.push_back(measured({1, 1, 1}, 0.8, 0.01, 0.0155));
+    CHECK(why() == "0.55 % of the pixels visibly change (limit 0.2 %)");
+    CHECK(isListed(why()));
+    report.measurements.back() = measured({1, 1, 1}, 0.8, 0.0107, 0.01);
+    CHECK(why() == "7 % more error (limit 5 %)");
+    report.measurements.back() = measured({1, 1, 1}, 0.8, 0.02, 0.01);  // far above in the plot
+    CHECK(why().empty());
+    report.measurements.back() = measured({1, 1, 1}, 0.9, 0.01, 0.01);
+    report.measurements.back().slowdown = {0.9, 0.8, 0.97};
+    CHECK(why() == "not surely 5 % faster than the scene's own settings");
+    CHECK(isListed(why()));
+    report.measurements.back() = measured({1, 1, 2}, 0.79, 0.01, 0.01);
+    report.measurements.push_back(measured({0, 1, 1}, 0.8, 0.01, 0.01));
+    REQUIRE(cost::recommended(report) == 7);
+    CHECK(why() == "a tie with what is recommended, which changes no more settings");
+    CHECK(isListed(why()));
+    CHECK(cost::whyNotRecommended(report, 7).empty());
+    CHECK(cost::whyNotRecommended(report, 0).empty());
+    report.measurements[6].slowdown = {0.9, 0.89, 0.91};
+    CHECK(why().empty());  // right of it, and no better
+    CHECK_FALSE(contains(cost::page(report), "but not recommended:"));
+}
+
+TEST_CASE("nothing is recommended for a time that is less by no more than repeats scatter") {
+    cost::Report report = sampleReport();
+    report.measurements.push_back(measured({1, 1, 1}, 0.82, 0.01, 0.01));
+    CHECK(cost::recommended(report) == 6);
+    report.measurements.back().slowdown = {0.82, 0.62, 0.94};
+    CHECK(cost::recommended(report) == 0);
 }
 
 TEST_CASE("what is fast by chance shuts nothing else out") {

@@ -28,7 +28,7 @@ std::optional<size_t> surelyFastest(const Report& report) {
     const auto time = [&](size_t i) -> const Spread& { return report.measurements[i].slowdown; };
     std::vector<size_t> faster = atOwnSamples(report);
     const auto drop = [&](const auto& slow) { faster.erase(std::remove_if(faster.begin(), faster.end(), slow), faster.end()); };
-    drop([&](size_t i) { return time(i).upper > 1 - kLeastSaving; });
+    drop([&](size_t i) { return !surelySaves(time(i)); });
     if (faster.empty()) return std::nullopt;
     const auto quicker = [&](size_t a, size_t b) { return time(a).median < time(b).median; };
     const Spread first = time(*std::min_element(faster.begin(), faster.end(), quicker));

@@ -147,9 +147,7 @@ std::string numbersList(const Plot& plot, const std::vector<size_t>& points) {
     std::string items;
     for (size_t i : points) {
         if (plot.points[i].number == kExpectedNumber) continue;  // the legend names it
-        items += element(
-            "li", "",
-            "<b class=\"" + plot.points[i].group + "\">" + plot.points[i].number + "</b> " + escaped(plot.points[i].name));
+        items += element("li", "", numberedName(plot.points[i].group, plot.points[i].number, plot.points[i].name));
     }
     return items.empty() ? "" : element("ul", "class=\"numbers " + plot.cssClass + "\"", items);
 }
@@ -194,10 +192,29 @@ std::string legend(const Shown& shown) {
     return element("ul", "class=\"legend\"", items);
 }
 
+/// Combinations that a reader would ask about, since they look as good as what is recommended; what speaks against single settings is in their table.
+std::string notRecommendedList(const Shown& shown) {
+    std::string items;
+    for (size_t i = shown.report.singles; i < shown.report.measurements.size(); ++i) {
+        const std::string reason = shown.isPale(i) ? "" : whyNotRecommended(shown.report, i);
+        if (reason.empty()) continue;
+        items += element(
+            "li", "", numberedName(groupOf(shown.report, i), std::to_string(i), shown.report.nameOf(i)) + ": " + prose(reason));
+    }
+    if (items.empty()) return "";
+    return element("p", "class=\"soft\"",
+                   "Several changed, as good as ★ or better by the looks of the plot, but not recommended:") +
+           element("ul", "class=\"numbers\"", items);
+}
+
 }  // namespace
 
 std::string groupOf(const Report& report, size_t measurement) {
     return measurement == 0 ? "own" : measurement < report.singles ? "lever" : "combination";
+}
+
+std::string numberedName(const std::string& group, const std::string& number, const std::string& name) {
+    return "<b class=\"" + group + "\">" + number + "</b> " + escaped(name);
 }
 
 std::string recommendedBadge() {
@@ -213,7 +230,8 @@ std::string plotSection(const Report& report) {
     const Shown shown = shownOf(report);
     std::string plots;
     for (const Layout& layout : {kNarrow, kWide}) plots += plotWithNames(shown, layout);
-    return element("h2", "", "Error against time") + element("div", "class=\"card\"", plots + legend(shown)) +
+    return element("h2", "", "Error against time") +
+           element("div", "class=\"card\"", plots + legend(shown) + notRecommendedList(shown)) +
            element("p", "class=\"soft\"",
                    "Each mark is a picture with other settings: further left is faster, further down more accurate. The numbers "
                    "are those of the table "

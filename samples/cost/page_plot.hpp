@@ -12,6 +12,9 @@ std::string groupOf(const Report& report, size_t measurement);
 /// The number of what halves the time, where it was not measured; it stands behind all measurements.
 constexpr const char* kExpectedNumber = "½";
 
+/// A measurement, or what is expected, by its number and name.
+std::string numberedName(const std::string& group, const std::string& number, const std::string& name);
+
 /// In tables, with the mark that the plot has.
 std::string recommendedBadge();
 std::string halfTimeBadge(const HalfTime& half);

@@ -20,10 +20,6 @@ bool keepsQuality(const Report& report, size_t measurement) {
            moreWrongPixels(report, report.measurements[measurement]) <= kNoticeablePixels;
 }
 
-bool savesTime(const Measurement& m) {
-    return m.slowdown.upper <= 1 - kLeastSaving;
-}
-
 BudgetChoice choiceOf(const Report& report, size_t measurement) {
     const Measurement& m = report.measurements[measurement];
     return {m.configuration, report.samplesAtScene(samplesOf(report.levers, m.configuration)), m.ms.median, m.error.relMse};
@@ -37,11 +33,36 @@ size_t nearestMiss(const Report& report) {
     for (size_t i = 1; i < report.measurements.size(); ++i) {
         const Measurement& m = report.measurements[i];
         const double wrong = moreWrongPixels(report, m);
-        if (!savesTime(m) || errorRatio(report, i) > 1 + kMoreError || wrong >= least) continue;
+        if (!surelySaves(m.slowdown) || errorRatio(report, i) > 1 + kMoreError || wrong >= least) continue;
         nearest = i;
         least = wrong;
     }
     return nearest;
+}
+
+/// What surely saves time for nothing, but for what is surely slower than the fastest of it.
+std::vector<size_t> candidates(const Report& report) {
+    std::vector<size_t> found;
+    Spread fastest = {1, 1, 1};
+    for (size_t i = 1; i < report.measurements.size(); ++i) {
+        const Measurement& m = report.measurements[i];
+        if (!savesForNothing(report, i)) continue;
+        found.push_back(i);
+        if (m.slowdown.median < fastest.median) fastest = m.slowdown;
+    }
+    const auto slow = [&](size_t i) { return surelySlower(report.measurements[i].slowdown, fastest); };
+    found.erase(std::remove_if(found.begin(), found.end(), slow), found.end());
+    return found;
+}
+
+/// Faster than what is recommended, or as fast with less error; and hardly higher in the plot than the scene's own settings.
+bool looksAsGood(const Report& report, size_t measurement, size_t advised) {
+    constexpr double kHardlyHigher = 2 * kMoreError;
+    if (measurement == 0 || measurement == advised || errorRatio(report, measurement) > 1 + kHardlyHigher) return false;
+    const double time = report.measurements[measurement].slowdown.median;
+    const double advisedTime = report.measurements[advised].slowdown.median;
+    const bool lessError = report.errorOf(measurement) < report.errorOf(advised);
+    return time < advisedTime || (lessError && time <= advisedTime * (1 + kSameTime));
 }
 
 std::string nearestMissSentence(const Report& report, size_t miss) {
@@ -53,33 +74,28 @@ std::string nearestMissSentence(const Report& report, size_t miss) {
 
 }  // namespace
 
+bool surelySaves(const Spread& slowdown) {
+    return slowdown.upper <= 1 - kLeastSaving && surelyDiffers(slowdown);
+}
+
 double moreWrongPixels(const Report& report, const Measurement& m) {
     return m.sameSamples.wrongPixels - report.measurements.front().sameSamples.wrongPixels;
 }
 
 bool savesForNothing(const Report& report, size_t measurement) {
-    return savesTime(report.measurements[measurement]) && keepsQuality(report, measurement);
+    return surelySaves(report.measurements[measurement].slowdown) && keepsQuality(report, measurement);
 }
 
 size_t recommended(const Report& report) {
-    std::vector<size_t> candidates;
-    Spread fastest = {1, 1, 1};
-    for (size_t i = 1; i < report.measurements.size(); ++i) {
-        const Measurement& m = report.measurements[i];
-        if (!savesForNothing(report, i)) continue;
-        candidates.push_back(i);
-        if (m.slowdown.median < fastest.median) fastest = m.slowdown;
-    }
-    const auto slow = [&](size_t i) { return surelySlower(report.measurements[i].slowdown, fastest); };
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), slow), candidates.end());
-    const auto best = std::min_element(candidates.begin(), candidates.end(), [&](size_t a, size_t b) {
+    const std::vector<size_t> found = candidates(report);
+    const auto best = std::min_element(found.begin(), found.end(), [&](size_t a, size_t b) {
         const size_t changedA = changedLevers(report, choiceOf(report, a)).size();
         const size_t changedB = changedLevers(report, choiceOf(report, b)).size();
         const double timeA = report.measurements[a].slowdown.median;
         const double timeB = report.measurements[b].slowdown.median;
         return changedA != changedB ? changedA < changedB : timeA < timeB;
     });
-    return best == candidates.end() ? 0 : *best;
+    return best == found.end() ? 0 : *best;
 }
 
 BudgetChoice recommendedChoice(const Report& report) {
@@ -98,10 +114,26 @@ std::string recommendationSentence(const Report& report) {
            errorChange(report.errorOf(0), report.errorOf(choice), report.floor()) + ".";
 }
 
+std::string whyNotRecommended(const Report& report, size_t measurement) {
+    const size_t advised = recommended(report);
+    if (!looksAsGood(report, measurement, advised)) return "";
+    const Measurement& m = report.measurements[measurement];
+    const double moreError = errorRatio(report, measurement) - 1;
+    const double wrong = moreWrongPixels(report, m);
+    if (moreError > kMoreError) return percent(moreError) + " more error (limit " + percent(kMoreError) + ")";
+    if (wrong > kNoticeablePixels)
+        return percent(wrong) + " of the pixels visibly change (limit " + percent(kNoticeablePixels) + ")";
+    if (!surelySaves(m.slowdown)) return "not surely " + percent(kLeastSaving) + " faster than the scene's own settings";
+    const std::vector<size_t> found = candidates(report);
+    if (std::find(found.begin(), found.end(), measurement) == found.end()) return "as good, but not the fastest";
+    return "a tie with what is recommended, which changes no more settings";
+}
+
 std::string recommendationRule(const Report& report) {
     std::string rule = "Of the " + std::to_string(report.measurements.size()) +
                        " choices of settings that were measured, the fastest one that saves at least " + percent(kLeastSaving) +
-                       " of the time in three quarters of all pairs of repeats, and whose error is at most " +
+                       " of the time in three quarters of all pairs of repeats, and more than twice what these scatter, and "
+                       "whose error is at most " +
                        percent(kMoreError) + " larger than that of the scene's own settings";
     if (!report.reference.random)
         rule += ", with at most " + percent(kNoticeablePixels) + " more of the pixels looking wrong at the same samples";
