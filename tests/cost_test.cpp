@@ -1180,6 +1180,21 @@ TEST_CASE("the sign for what is not to be believed is explained wherever a row o
     CHECK_FALSE(contains(cost::page(report), key));
 }
 
+TEST_CASE("of several larger numbers of samples one is advised, everywhere the same") {
+    cost::Report report = sampleReport();
+    report.levers[2].settings.push_back({"16", "16 samples", 16});
+    report.measurements.insert(report.measurements.begin() + 5, measured({2, 1, 3}, 4, 0.0005, 0.01));  // gains more for its time
+    report.singles = 6;
+    report.compareSingles();
+    CHECK(contains(cost::betterPictureSentence(report), "take 8 samples: "));
+    const auto reason = [&](size_t measurement) { return cost::adviceOn(report, *report.comparisonOf(measurement)).reason; };
+    CHECK(reason(4) == "better, but slower");
+    CHECK(reason(5) == "only if 8 samples are too few");
+    CHECK(report.comparisonOf(4)->leading);
+    CHECK_FALSE(report.comparisonOf(5)->leading);
+    CHECK(contains(cost::page(report), "only if 8 samples are too few"));
+}
+
 TEST_CASE("the parts of the page come in the order in which they are needed") {
     const std::string html = cost::page(sampleReport());
     size_t before = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "better_picture.hpp"
 #include "figures.hpp"
 #include "recommendation.hpp"
 
@@ -58,6 +59,13 @@ Advice tradeAdvice(const Lever& lever, const Comparison& c, const Effect& effect
     return pays ? Advice{Action::keep, "loses more than it saves"} : Advice{Action::choose, "faster, but worse"};
 }
 
+/// Of more samples than the scene's own: the least number that is better comes first, and others where it does not do.
+std::string whenToTakeSamples(const Report& report, const Comparison& c) {
+    const Comparison* first = moreSamples(report);
+    if (!first || c.accurate <= first->accurate) return "better, but slower";
+    return "only if " + report.levers[c.lever].settings[first->accurate].words + " are too few";
+}
+
 /// By what a setting does to the picture, and what that takes.
 Advice pictureAdvice(const Report& report, const Comparison& c) {
     const Effect effect = effectOf(c);
@@ -68,7 +76,7 @@ Advice pictureAdvice(const Report& report, const Comparison& c) {
     if (effect.better && little && !isSamplesOrIntegrator(report.levers[c.lever]))
         return {Action::hardlyMatters, effect.slower ? "slower, and only a little better" : "only a little better"};
     // More samples take longer, also where an unsteady machine could not show it.
-    if (effect.better && report.levers[c.lever].kind == LeverKind::samples) return {Action::choose, "better, but slower"};
+    if (effect.better && report.levers[c.lever].kind == LeverKind::samples) return {Action::choose, whenToTakeSamples(report, c)};
     if (effect.better && !effect.slower) return {Action::upgrade, "better, and not surely slower"};
     if (effect.worse && !effect.faster)
         return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and not surely faster"};

@@ -35,16 +35,6 @@ const Comparison* bestUpgrade(const Report& report) {
     return best;
 }
 
-/// The least number of samples above the scene's own by which the error was seen to fall, or null.
-const Comparison* moreSamples(const Report& report) {
-    const Comparison* least = nullptr;
-    for (const Comparison& c : report.comparisons)
-        if (report.levers[c.lever].kind == LeverKind::samples && !c.sceneHasAccurate && c.change == ErrorChange::less &&
-            (!least || c.accurate < least->accurate))
-            least = &c;
-    return least;
-}
-
 std::string shareSentence(const Report& report) {
     const double share = samplingShare(report);
     const std::string samples = samplesWords(report.sceneSamples);
@@ -59,6 +49,15 @@ double samplingShare(const Report& report) {
     const double error = report.errorOf(0);
     if (error <= 0) return 0;
     return std::max(error - systematicError(own, own.configuration), 0.0) / error;
+}
+
+const Comparison* moreSamples(const Report& report) {
+    const Comparison* least = nullptr;
+    for (const Comparison& c : report.comparisons)
+        if (report.levers[c.lever].kind == LeverKind::samples && !c.sceneHasAccurate && c.change == ErrorChange::less &&
+            (!least || c.accurate < least->accurate))
+            least = &c;
+    return least;
 }
 
 std::optional<BudgetChoice> betterPicture(const Report& report) {

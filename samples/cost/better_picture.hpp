@@ -7,6 +7,9 @@ namespace cost {
 /// Share of the error of the scene's own settings that more samples reduce: noise of path tracers, of Whitted's tracer what too few samples miss.
 double samplingShare(const Report& report);
 
+/// The least number of samples above the scene's own by which the error was seen to fall, or null.
+const Comparison* moreSamples(const Report& report);
+
 /// The settings that betterPictureSentence() names, together; nothing where it names none.
 std::optional<BudgetChoice> betterPicture(const Report& report);
 

@@ -165,6 +165,11 @@ std::string countAlone(const std::string& words) {
 std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const std::vector<Measurement>& singles,
                                       double moreSamples) {
     const auto matters = [](const Comparison& a, const Comparison& b) { return std::abs(a.usefulness) > std::abs(b.usefulness); };
+    // Of samples the next better number leads, which is the one to try first.
+    const auto nearer = [](const Comparison& a, const Comparison& b) {
+        const auto isBetter = [](const Comparison& c) { return !c.sceneHasAccurate && c.change == ErrorChange::less; };
+        return isBetter(a) != isBetter(b) ? isBetter(a) : a.accurate - a.cheap < b.accurate - b.cheap;
+    };
     std::vector<std::vector<Comparison>> groups;
     for (size_t lever = 0; lever < levers.size(); ++lever) {
         std::vector<Comparison> group;
@@ -172,7 +177,10 @@ std::vector<Comparison> compareLevers(const std::vector<Lever>& levers, const st
             if (singles[at].configuration[lever] != levers[lever].initial)
                 group.push_back(compareSettings(levers, singles, at, lever, moreSamples));
         if (group.empty()) continue;
-        std::stable_sort(group.begin(), group.end(), matters);
+        if (levers[lever].kind == LeverKind::samples)
+            std::stable_sort(group.begin(), group.end(), nearer);
+        else
+            std::stable_sort(group.begin(), group.end(), matters);
         group.front().leading = true;
         groups.push_back(std::move(group));
     }

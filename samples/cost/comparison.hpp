@@ -17,8 +17,8 @@ struct Comparison {
     size_t lever = 0;
     size_t cheap = 0;  // settings of the lever
     size_t accurate = 0;
-    size_t measurement = 0;         // of the setting that is not the scene's own
-    bool leading = false;           // of its lever, the one for which the decision matters the most
+    size_t measurement = 0;  // of the setting that is not the scene's own
+    bool leading = false;    // of its lever, the one for which the decision matters the most; of samples the next better number
     bool sceneHasAccurate = false;  // else the scene has the cheap one
     Spread slowdown;                // by the accurate setting
     Spread relativeTime;            // of the setting that is not the scene's own: 1 is the time of the scene's own
