@@ -75,6 +75,23 @@ void checkRefused(const Words& command, const std::string& part) {
     CHECK(outcome.err.find(part) != std::string::npos);
 }
 
+/// Whether a browser as wide shows less than all columns of the page's table of all figures: "yes", "no".
+std::string isTableCutAt(int width, const test::TemporaryDir& dir) {
+    const std::string script =
+        "<script>for (const closed of document.querySelectorAll('details')) closed.open = true;"
+        "const shown = document.querySelector('.scroll');"
+        "document.title = shown.scrollWidth > shown.clientWidth ? 'cut: yes' : 'cut: no';</script>";
+    const fs::path page = dir.write("opened.html", test::readFile(dir.path() / "report.html") + script);
+    const Outcome outcome = run({"chromium", "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom",
+                                 "--window-size=" + std::to_string(width) + ",2000", page.string()},
+                                {"HOME=" + dir.path().string()});
+    const std::string title = "<title>cut: ";
+    const size_t at = outcome.out.find(title);
+    if (at == std::string::npos) return outcome.err;
+    const size_t from = at + title.size();
+    return outcome.out.substr(from, outcome.out.find('<', from) - from);
+}
+
 }  // namespace
 
 TEST_CASE("a scene file's levers are measured against a reference that is more accurate than they are") {
@@ -167,4 +184,5 @@ TEST_CASE("a browser draws the page without a network") {
     CHECK(outcome.exitCode == 0);
     REQUIRE(fs::exists(shot));
     CHECK(fs::file_size(shot) > 20000);  // a blank page is a tenth of that
+    CHECK(isTableCutAt(1100, dir) == "no");
 }

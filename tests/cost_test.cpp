@@ -1178,6 +1178,38 @@ TEST_CASE("the sign for what is not to be believed is explained wherever a row o
     CHECK(contains(cost::page(report), key));
     report.measurements[5].error.relMse = 0.002;
     CHECK_FALSE(contains(cost::page(report), key));
+    CHECK_FALSE(contains(cost::page(report), "≤"));
+}
+
+TEST_CASE("a sign that is nowhere on the page is nowhere explained") {
+    cost::Report report = twoSettings(2, 1, 0.45, 0.01, 0.01);
+    std::string html = cost::page(report);
+    CHECK(contains(html, "smaller errors are not to be believed."));
+    CHECK_FALSE(contains(html, "≤"));
+    CHECK_FALSE(contains(html, "<b>–</b>"));  // no row has other samples
+    CHECK(contains(cost::page(sampleReport()), "<b>–</b>"));
+    report.measurements.push_back(measured({1, 1, 0}, 0.85, 0.0004, 0.01));
+    report.measurements.back().sameSamples.relMse = 0;
+    report.measurements.front().bias.standardError = 1e-5;
+    report.reference.relMse = 0.001;
+    html = cost::page(report);
+    const size_t figures = html.find("id=\"figures\"");
+    REQUIRE_FALSE(contains(html.substr(0, html.find("id=\"settings\"")), "≤"));
+    CHECK(contains(html.substr(figures, html.find("id=\"method\"") - figures), "<b>≤</b>: no larger than"));
+    CHECK(contains(html, "smaller errors are not to be believed, and marked ≤."));
+}
+
+TEST_CASE("beside both columns of errors stands how they relate") {
+    const auto key = [](const cost::Report& report) {
+        const std::string html = cost::page(report);
+        const size_t figures = html.find("id=\"figures\"");
+        return html.substr(figures, html.find("id=\"method\"") - figures);
+    };
+    CHECK(contains(key(sampleReport()),
+                   "<b>Error as measured</b>: of the picture as it was rendered. <b>Error</b>, as on the rest of "));
+    const std::string many = key(manySamplesReport());
+    CHECK(contains(many, "as it was rendered, with 4 samples a pixel in place of the scene's own 64. <b>Error</b>"));
+    CHECK(contains(many, "what other settings surely add or take, estimated for the scene's own 64."));
 }
 
 TEST_CASE("of several larger numbers of samples one is advised, everywhere the same") {

@@ -33,4 +33,8 @@ std::string prose(const std::string& text) {
     return out;
 }
 
+std::string small(const std::string& text) {
+    return "<small>" + prose(text) + "</small>";
+}
+
 }  // namespace cost

@@ -13,4 +13,7 @@ std::string element(const std::string& name, const std::string& attributes, cons
 /// Of sentences: escaped, and numbers stay on the line of their unit.
 std::string prose(const std::string& text);
 
+/// A sentence beneath what it is about.
+std::string small(const std::string& text);
+
 }  // namespace cost

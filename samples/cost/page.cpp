@@ -113,9 +113,9 @@ std::string foot(const Report& report) {
 
 std::string page(const Report& report) {
     Glossary glossary;
-    const std::string found =
-        glossary.linked(head(report) + howToSection(report) + settingsSection(report) + plotSection(report) +
-                        gallerySection(report) + figuresSection(report) + hardCasesSection(report) + methodSection(report));
+    const std::string figures = head(report) + howToSection(report) + settingsSection(report) + plotSection(report) +
+                                gallerySection(report) + figuresSection(report) + hardCasesSection(report);
+    const std::string found = glossary.linked(figures + methodSection(report, hasBound(figures)));
     const std::string body = found + element("h2", "id=\"words\"", "Words") + glossary.list() + foot(report);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
            "content=\"width=device-width, initial-scale=1\">\n" +

@@ -52,33 +52,25 @@ std::string badges(const Report& report, const HalfTime& half, size_t i) {
 
 std::string row(const Report& report, const HalfTime& half, size_t i) {
     const Measurement& m = report.measurements[i];
-    const std::string name = "<b class=\"" + groupOf(report, i) + "\">" + std::to_string(i) + "</b> " +
-                             escaped(report.nameOf(i)) + badges(report, half, i);
-    const std::string interval = i == 0 ? "" : relativeTime(m.slowdown.lower) + " to " + relativeTime(m.slowdown.upper);
+    const std::string name = numberedName(groupOf(report, i), std::to_string(i), report.nameOf(i)) + badges(report, half, i);
     return element("tr", "",
-                   element("th", "scope=\"row\"", name) +
-                       cells({i == 0                  ? "100 %"
-                              : covers(m.slowdown, 1) ? "same"
-                                                      : relativeTime(m.slowdown.median),
-                              interval, number(m.ms.median), errorFigure(report.errorOf(i), report.floor()),
-                              number(m.error.relMse), biasCell(report, m), percent(m.error.wrongPixels), number(m.error.largest),
-                              number(m.pipelineMs), number(static_cast<double>(m.kernelBytes) / 1000)}));
+                   element("th", "scope=\"row\"", name) + element("td", "", i == 0 ? prose("100 %") : timeContent(m.slowdown)) +
+                       cells({number(m.ms.median), errorFigure(report.errorOf(i), report.floor()), number(m.error.relMse),
+                              biasCell(report, m), percent(m.error.wrongPixels), number(m.error.largest), number(m.pipelineMs),
+                              number(static_cast<double>(m.kernelBytes) / 1000)}));
 }
 
 /// What halves the time, where it was not measured.
 std::string expectedRow(const Report& report, const HalfTime& half) {
     if (!half.isShown() || half.measurement) return "";
-    const std::string name = std::string("<b class=\"half\">") + kExpectedNumber + "</b> " +
-                             escaped(changesInWords(report, *half.choice)) + halfTimeBadge(half);
+    const std::string name = numberedName("half", kExpectedNumber, changesInWords(report, *half.choice)) + halfTimeBadge(half);
     return element("tr", "",
-                   element("th", "scope=\"row\"", name) +
-                       cells({relativeTime(half.relativeTime()), "–", "–", errorFigure(half.choice->relMse, report.floor()), "–",
-                              "–", "–", "–", "–", "–"}));
+                   element("th", "scope=\"row\"", name) + element("td", "", expectedTimeContent(half)) +
+                       cells({"–", errorFigure(half.choice->relMse, report.floor()), "–", "–", "–", "–", "–", "–"}));
 }
 
 std::vector<std::string> figuresHeadings(const Report& report) {
     return {"time",
-            "middle half of the repeats",
             "ms, as measured",
             "error",
             "error as measured",
@@ -89,12 +81,19 @@ std::vector<std::string> figuresHeadings(const Report& report) {
             "kernels, kB"};
 }
 
-std::string figuresKey(const Report& report) {
-    std::string text = "Each row is named by what differs from the scene's own settings; the numbers are those of the plot. ";
-    if (report.samples() < report.sceneSamples)
-        text += "Measured with " + samplesWords(report.samples()) + ", <b>error</b> is that expected at the scene's own " +
-                samplesWords(report.sceneSamples) + ". ";
-    text += "<b>Look wrong</b>: off by more than " + std::to_string(kUnseenSteps) +
+std::string figuresKey(const Report& report, const std::string& table) {
+    const bool fewer = report.samples() < report.sceneSamples;
+    const std::string sceneSamples = "the scene's own " + std::to_string(report.sceneSamples);
+    std::string text =
+        "Each row is named by what differs from the scene's own settings; the numbers are those of the plot. <b>Time</b>: "
+        "beneath "
+        "it, the middle half of all repeats. <b>Error as measured</b>: of the picture as it was rendered";
+    if (fewer) text += ", with " + samplesWords(report.samples()) + " in place of " + sceneSamples;
+    text +=
+        ". <b>Error</b>, as on the rest of the page: the error of the scene's own settings, and what other settings surely add "
+        "or take";
+    if (fewer) text += ", estimated for " + sceneSamples;
+    text += "." + boundKey(report, table) + " <b>Look wrong</b>: off by more than " + std::to_string(kUnseenSteps) +
             " of a screen's 255 steps, for want of samples too. <b>Pipelines</b> and <b>kernels</b>: what the driver took to "
             "translate the "
             "programs of the device, once, and how large these are.";
@@ -102,6 +101,25 @@ std::string figuresKey(const Report& report) {
 }
 
 }  // namespace
+
+std::string timeContent(const Spread& time) {
+    return prose(measurable(time) ? relativeTime(time.median) : "same") +
+           small(relativeTime(time.lower) + " to " + relativeTime(time.upper));
+}
+
+std::string expectedTimeContent(const HalfTime& half) {
+    return prose(relativeTime(half.relativeTime())) + small("expected");
+}
+
+std::string boundKey(const Report& report, const std::string& table) {
+    if (!hasBound(table)) return "";
+    return " <b>≤</b>: no larger than what the error of the reference itself can make (" + number(report.floor()) +
+           "), and so not to be believed.";
+}
+
+bool hasBound(const std::string& html) {
+    return html.find("≤") != std::string::npos;
+}
 
 std::string figuresSection(const Report& report) {
     const HalfTime half = halfTime(report);
@@ -116,7 +134,7 @@ std::string figuresSection(const Report& report) {
                "details", "class=\"card\"",
                element("summary", "",
                        std::to_string(report.measurements.size()) + " choices of settings, each with its time and its errors") +
-                   element("div", "class=\"scroll\" tabindex=\"0\"", table) + figuresKey(report));
+                   element("div", "class=\"scroll\" tabindex=\"0\"", table) + figuresKey(report, table));
 }
 
 }  // namespace cost

@@ -19,8 +19,11 @@ std::string ruleText(const Report& report) {
                        prose(percent(kLeastSaving)) + " of the time.");
 }
 
-std::string errorText(const Report& report) {
+std::string errorText(const Report& report, bool bounds) {
     const Reference& r = report.reference;
+    std::string marked = bounds ? ", and marked ≤" : "";
+    if (bounds && report.samples() < report.sceneSamples)
+        marked += " from " + number(report.floor()) + " on, as expected at the scene's own samples";
     return element("p", "",
                    "<b>Error</b> is relMSE: the mean over pixels and channels of (x − r)² / (r² + " + number(kRelMseEpsilon) +
                        "), x the linear radiance of the picture, r the reference's, without the " + prose(percent(kOutliers)) +
@@ -30,10 +33,7 @@ std::string errorText(const Report& report) {
            element("p", "",
                    "The <b>reference</b> has every setting at its most accurate and " + samplesWords(r.samples) +
                        ". Its own error, from the difference of two independent halves, is " + number(r.relMse) +
-                       "; smaller errors are not to be believed, and marked ≤" +
-                       (report.samples() < report.sceneSamples
-                            ? " from " + number(report.floor()) + " on, as expected at the scene's own samples."
-                            : "."));
+                       "; smaller errors are not to be believed" + marked + ".");
 }
 
 std::string samplesText(const Report& report) {
@@ -91,8 +91,8 @@ std::string hardCasesSection(const Report& report) {
            element("div", "class=\"card cases\"", rows);
 }
 
-std::string methodSection(const Report& report) {
-    std::string text = ruleText(report) + errorText(report) + samplesText(report) + timeText(report);
+std::string methodSection(const Report& report, bool bounds) {
+    std::string text = ruleText(report) + errorText(report, bounds) + samplesText(report) + timeText(report);
     if (report.samples() < report.sceneSamples)
         text += element("p", "",
                         "Measured with " + samplesWords(report.samples()) + " instead of the scene's " +

@@ -7,6 +7,7 @@ namespace cost {
 /// "" where these were not asked for.
 std::string hardCasesSection(const Report& report);
 
-std::string methodSection(const Report& report);
+/// `bounds`: whether the page marks figures by ≤.
+std::string methodSection(const Report& report, bool bounds);
 
 }  // namespace cost

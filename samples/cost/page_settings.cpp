@@ -7,6 +7,7 @@
 #include "figures.hpp"
 #include "half_time.hpp"
 #include "html.hpp"
+#include "page_figures.hpp"
 #include "page_gallery.hpp"
 #include "page_plot.hpp"
 #include "recommendation.hpp"
@@ -24,20 +25,11 @@ std::string cell(const std::string& label, const std::string& content) {
     return element("td", label.empty() ? "" : "data-label=\"" + label + "\"", content);
 }
 
-std::string small(const std::string& text) {
-    return "<small>" + prose(text) + "</small>";
-}
-
 /// The headings; pixels are counted only where noise does not hide them.
 std::vector<std::string> settingsHeadings(const Report& report) {
     std::vector<std::string> names = {"Time", "Error", "Visibly changed pixels"};
     if (report.reference.random) names.pop_back();
     return names;
-}
-
-std::string timeContent(const Spread& time) {
-    return prose(measurable(time) ? relativeTime(time.median) : "same") +
-           small(relativeTime(time.lower) + " to " + relativeTime(time.upper));
 }
 
 std::string errorContent(const Report& report, const Comparison& c) {
@@ -57,8 +49,7 @@ std::string comparisonCells(const Report& report, const Comparison& c) {
     const Advice advice = adviceOn(report, c);
     const std::vector<std::string> names = settingsHeadings(report);
     std::string cells =
-        element("td", "class=\"tried\"",
-                "<b class=\"lever\">" + std::to_string(c.measurement) + "</b> " + escaped(report.nameOf(c.measurement)));
+        element("td", "class=\"tried\"", numberedName("lever", std::to_string(c.measurement), report.nameOf(c.measurement)));
     cells += cell(names[0], timeContent(c.relativeTime)) + cell(names[1], errorContent(report, c));
     if (names.size() > 2) cells += cell(names[2], pixelsContent(report, c.measurement));
     return cells + element("td", "class=\"do\"", chip(advice.action) + small(advice.reason));
@@ -88,15 +79,11 @@ std::string choiceRow(const Report& report, const std::string& name, const std::
     return element("tr", "", row + cell("", ""));
 }
 
-std::string numbered(const std::string& cssClass, const std::string& number, const std::string& words) {
-    return "<b class=\"" + cssClass + "\">" + number + "</b> " + escaped(words);
-}
-
 std::string recommendedRow(const Report& report) {
     const size_t i = recommended(report);
     if (i == 0) return "";
     const Measurement& m = report.measurements[i];
-    return choiceRow(report, numbered(groupOf(report, i), std::to_string(i), report.nameOf(i)) + recommendedBadge(),
+    return choiceRow(report, numberedName(groupOf(report, i), std::to_string(i), report.nameOf(i)) + recommendedBadge(),
                      {timeContent(m.slowdown), prose(errorFigure(report.errorOf(i), report.floor())), pixelsContent(report, i)});
 }
 
@@ -104,16 +91,16 @@ std::string halfTimeRow(const Report& report) {
     const HalfTime half = halfTime(report);
     if (!half.isShown()) return "";
     const std::string number = half.measurement ? std::to_string(*half.measurement) : kExpectedNumber;
-    const std::string time = half.measurement ? timeContent(report.measurements[*half.measurement].slowdown)
-                                              : prose(relativeTime(half.relativeTime())) + small("expected");
-    return choiceRow(report, numbered("half", number, changesInWords(report, *half.choice)) + halfTimeBadge(half),
+    const std::string time =
+        half.measurement ? timeContent(report.measurements[*half.measurement].slowdown) : expectedTimeContent(half);
+    return choiceRow(report, numberedName("half", number, changesInWords(report, *half.choice)) + halfTimeBadge(half),
                      {time, prose(errorFigure(half.choice->relMse, report.floor())),
                       pixelsContent(report, report.measurementOf(half.choice->configuration))});
 }
 
 /// The scene's own settings, and what the page answers.
 std::string choicesBody(const Report& report) {
-    const std::string own = choiceRow(report, numbered("own", "0", report.nameOf(0)),
+    const std::string own = choiceRow(report, numberedName("own", "0", report.nameOf(0)),
                                       {"100\u00a0%", prose(errorFigure(report.errorOf(0), report.floor())), ""});
     return element("tbody", "class=\"choices\"", own + recommendedRow(report) + halfTimeRow(report));
 }
@@ -150,11 +137,8 @@ std::string settingsKey(const Report& report, const std::string& table) {
         "<b>Time</b>: compared with the scene's own settings; beneath it, the middle half of all repeats. "
         "<b>Error</b>: at the scene's own " +
         samplesWords(report.sceneSamples) + ".";
-    if (!report.reference.random) text += " <b>–</b>: not counted, since other samples change every edge.";
-    if (table.find("≤") != std::string::npos)
-        text += " <b>≤</b>: no larger than what the error of the reference itself can make (" + number(report.floor()) +
-                "), and so not to be believed.";
-    return element("p", "class=\"soft\"", text + " <code>minirtc levers</code> tells how to set each.");
+    if (table.find(">–<") != std::string::npos) text += " <b>–</b>: not counted, since other samples change every edge.";
+    return element("p", "class=\"soft\"", text + boundKey(report, table) + " <code>minirtc levers</code> tells how to set each.");
 }
 
 }  // namespace

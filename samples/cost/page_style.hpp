@@ -38,7 +38,7 @@ pre span { display: block; padding-left: 1.5em; text-indent: -1.5em; }
 .chip.switch, .chip.upgrade { background: var(--change); border-color: var(--change); color: var(--card); font-weight: 600; }
 .badge { color: var(--ink); font-size: .8rem; font-weight: 600; white-space: nowrap; }
 .settings { background: var(--card); border: 1px solid var(--rule); border-radius: 6px; }
-.settings small { display: block; color: var(--soft); font-size: .78rem; line-height: 1.3; }
+td small, .settings small { display: block; color: var(--soft); font-size: .78rem; line-height: 1.3; }
 .settings tbody > tr:first-child > * { border-top: 1px solid var(--rule); } .settings th, .settings td { border-bottom: 0; vertical-align: baseline; }
 .settings tbody th, .settings .tried, .settings .do { text-align: left; white-space: normal; } .settings tbody th { font-weight: 600; }
 .settings thead th:nth-child(2), .settings thead th:last-child { text-align: left; }
@@ -76,7 +76,7 @@ pre span { display: block; padding-left: 1.5em; text-indent: -1.5em; }
 table { border-collapse: separate; border-spacing: 0; font-size: .86rem; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { padding: .35rem .5rem; text-align: right; border-bottom: 1px solid var(--rule); }
 td { white-space: nowrap; } tbody tr:last-child > * { border-bottom: 0; }
-thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .figures thead th { min-width: 4.6rem; }
+thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .figures { font-size: .8rem; } .figures th, .figures td { padding: .35rem .3rem; }
 .settings th:first-child { text-align: left; }
 .figures th:first-child { position: sticky; left: 0; background: var(--card); border-right: 1px solid var(--rule); min-width: 8.6rem; text-align: left; font-weight: 400; }
 @media (min-width: 46rem) { .figures th:first-child { min-width: 11rem; } }
