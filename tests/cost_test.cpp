@@ -374,6 +374,7 @@ TEST_CASE("what the repeats scatter by is never called slower or faster") {
     CHECK(reasonOf(same, {1.08, 0.99, 1.12}) == "no measured difference");
     CHECK(reasonOf(twoSettings(kSchlick, kExact, 1, 0.013, 0.01), {1.08, 1.03, 1.12}) == "better, and not surely slower");
     CHECK(reasonOf(twoSettings(kExact, kSchlick, 1, 0.01, 0.013), {0.92, 0.88, 0.97}) == "worse, and not surely faster");
+    CHECK(reasonOf(twoSettings(kExact, kSchlick, 1, 0.01, 0.013), {1.36, 1.35, 1.39}) == "worse, and slower");
     cost::Report longer = twoSettings(kExact, kSchlick, 1, 0.01, 0.05);
     longer.measurements[1].slowdown = {1.08, 1.03, 1.12};
     longer.compareSingles();

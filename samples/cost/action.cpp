@@ -79,7 +79,8 @@ Advice pictureAdvice(const Report& report, const Comparison& c) {
     if (effect.better && report.levers[c.lever].kind == LeverKind::samples) return {Action::choose, whenToTakeSamples(report, c)};
     if (effect.better && !effect.slower) return {Action::upgrade, "better, and not surely slower"};
     if (effect.worse && !effect.faster)
-        return {c.sceneHasAccurate ? Action::keep : Action::notNeeded, "worse, and not surely faster"};
+        return {c.sceneHasAccurate ? Action::keep : Action::notNeeded,
+                effect.slower ? "worse, and slower" : "worse, and not surely faster"};
     return tradeAdvice(report.levers[c.lever], c, effect);
 }
 
