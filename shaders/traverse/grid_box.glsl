@@ -1,4 +1,5 @@
-// The test of box.glsl where planes are 16-bit numbers, two to a word, by the fewest instructions on units that an H100 has few of (docs/performance.md). GLSL and C++ (tests/shader_source.hpp).
+// The test of box.glsl where planes are 16-bit numbers, two to a word, by the fewest instructions on units that an H100 has few of (docs/performance.md).
+// GLSL and C++ (tests/shader_source.hpp).
 
 /// A ray against such boxes. Of a word times `entry` the upper half is the plane where the ray enters, of one times `exit` the other plane.
 struct GridRay {
